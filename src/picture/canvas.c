@@ -579,15 +579,14 @@ void dyd_picture_shape(dyd_canvas *c, unsigned fill, double alpha, unsigned edge
   dyd_canvas_paint(c, &(dyd_paint){fill, edge, alpha, width, 0, 0});
 }
 
-void dyd_picture_line(dyd_canvas *c, double z[2][2], unsigned rgb, double width, double on, double off) {
+void dyd_canvas_segment(dyd_canvas *c, double z[2][2]) {
   dyd_canvas_move(c, z[0][0], z[0][1]);
   dyd_canvas_line(c, z[1][0], z[1][1]);
-  dyd_picture_stroke(c, rgb, width, on, off);
 }
 
-void dyd_picture_dot(dyd_canvas *c, double x, double y, double radius, unsigned fill, unsigned edge) {
-  dyd_canvas_circle(c, x, y, radius);
-  dyd_picture_shape(c, fill, 1, edge, 1.2);
+void dyd_picture_line(dyd_canvas *c, double z[2][2], unsigned rgb, double width, double on, double off) {
+  dyd_canvas_segment(c, z);
+  dyd_picture_stroke(c, rgb, width, on, off);
 }
 
 /* ---- pages ---- */

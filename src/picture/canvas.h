@@ -45,6 +45,7 @@ dyd_status dyd_canvas_end(dyd_canvas *c, dyd_status st, dyd_error *err);
 void dyd_canvas_move(dyd_canvas *c, double x, double y);
 /* Moves where there is no path yet. */
 void dyd_canvas_line(dyd_canvas *c, double x, double y);
+void dyd_canvas_segment(dyd_canvas *c, double z[2][2]);
 void dyd_canvas_curve(dyd_canvas *c, double x1, double y1, double x2, double y2, double x, double y);
 /* A line to the first end, if there is a path, then clockwise on the page from angle `from` to `to`, radians. */
 void dyd_canvas_arc(dyd_canvas *c, double x, double y, double radius, double from, double to);
@@ -62,7 +63,6 @@ void dyd_picture_fill(dyd_canvas *c, unsigned rgb);
 void dyd_picture_shape(dyd_canvas *c, unsigned fill, double alpha, unsigned edge, double width);
 /* A line of an edge. */
 void dyd_picture_line(dyd_canvas *c, double z[2][2], unsigned rgb, double width, double on, double off);
-void dyd_picture_dot(dyd_canvas *c, double x, double y, double radius, unsigned fill, unsigned edge);
 /* Until dyd_canvas_unclip only the inside of the path is shown; clips nest. */
 void dyd_canvas_clip(dyd_canvas *c);
 void dyd_canvas_unclip(dyd_canvas *c);

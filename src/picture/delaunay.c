@@ -12,17 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct {
-  dyd_pair_status status;
-  const char *name;
-  unsigned rgb, region;
-  double on, off, width;
-} style[3] = {{DYD_TIE, "tie", 0x6b6b6b, 0xe4e4e4, 0.2, 2.2, 1.0},
-              {DYD_INDETERMINATE, "indeterminate", 0xd55e00, 0xfbe3d1, 4, 2.5, 1.0},
-              {DYD_LEGAL, "legal", 0x0072b2, 0xd3e6f2, 0, 0, 1.2}};
-
-enum { TIED, OPEN, LEGAL };
-#define TRIANGLE 0xe6f0f7
+enum { TIED = DYD_KIND_TIE, OPEN = DYD_KIND_OPEN, LEGAL = DYD_KIND_LEGAL };
 #define CLOSE 12.0 /* neighbours so close have rectangles that hide each other */
 #define WIDE 50.0  /* room around the frame, in points, for lines and dashes that begin outside */
 #define FAR 1e13   /* lengths on the page beyond which doubles do not give positions to a hundredth */
@@ -33,25 +23,13 @@ typedef struct delaunay_drawing {
   dyd_view view;
   dyd_triangle_list triangles;
   double wide[4];
-  size_t shown[4], sites; /* lines of each status, rectangles that meet the frame */
-  double (*at)[2];        /* the middle of each rectangle on the page; owned */
-  bool any_wide;          /* some rectangle is more than a dot */
-  bool there[3];          /* some pair has this style */
-  dyd_density dense[3];   /* of lines of each style: all squares of OPEN, where it is crowded; else full ones */
-  bool crowded;           /* those of OPEN are drawn instead of its lines */
-  bool triangle, region[4], squares; /* was drawn; full squares */
-  dyd_site_marks marks;
+  size_t sites;    /* rectangles that meet the frame */
+  double (*at)[2]; /* the middle of each rectangle on the page; owned */
+  bool any_wide;   /* some rectangle is more than a dot */
+  dyd_sites_shown marks;
+  dyd_pairs_shown pairs;
+  dyd_picture picture;
 } delaunay_drawing;
-
-static int style_of(dyd_pair_status status) {
-  return status == DYD_LEGAL ? LEGAL : status == DYD_TIE ? TIED : OPEN;
-}
-
-/* What lines of a style are called. */
-static const char *style_name(const delaunay_drawing *d, int k) {
-  if (!d->r->graph_name) return style[k].name;
-  return style[k].status == DYD_LEGAL ? "certain" : "possible";
-}
 
 /* Returns true if the rectangle is more than a dot. */
 static bool is_wide_box(const delaunay_drawing *d, const double b[4]) {
@@ -107,24 +85,25 @@ static bool has_names(const delaunay_drawing *d) {
   return d->triangles.count + d->r->pairs.count <= DYD_PICTURE_NAMES;
 }
 
-static void draw_triangles(dyd_canvas *c, delaunay_drawing *d) {
-  bool names = has_names(d);
+static void name_triangle(dyd_canvas *c, const dyd_engine *e, const uint32_t v[3], const char *what) {
+  size_t row[3];
+  for (int corner = 0; corner < 3; corner++) row[corner] = dyd_engine_row(e, v[corner]);
+  char id[80], title[80];
+  snprintf(id, sizeof id, "triangle-%zu-%zu-%zu", row[0], row[1], row[2]);
+  snprintf(title, sizeof title, "%s %zu, %zu, %zu", what, row[0], row[1], row[2]);
+  dyd_canvas_name(c, id, title);
+}
+
+static void triangles_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  const delaunay_drawing *d = p->what;
   for (size_t k = 0; k < d->triangles.count; k++) {
     const uint32_t *v = d->triangles.item[k].v;
     double z[DYD_CLIP_MOST][2];
     for (int corner = 0; corner < 3; corner++) memcpy(z[corner], d->at[v[corner]], sizeof z[corner]);
-    if (is_covered(&d->dense[LEGAL], z, 3) || !polygon_path(c, d, z, 3)) continue;
-    d->triangle = true;
-    if (!names) continue;
-    size_t row[3];
-    for (int corner = 0; corner < 3; corner++) row[corner] = dyd_engine_row(d->r->engine, v[corner]);
-    char id[80], title[80];
-    snprintf(id, sizeof id, "triangle-%zu-%zu-%zu", row[0], row[1], row[2]);
-    snprintf(title, sizeof title, "certain triangle %zu, %zu, %zu", row[0], row[1], row[2]);
-    dyd_canvas_name(c, id, title);
-    dyd_picture_fill(c, TRIANGLE);
+    if (is_covered(&d->pairs.dense[LEGAL], z, 3) || !polygon_path(p->canvas, d, z, 3) || !has_names(d)) continue;
+    name_triangle(p->canvas, d->r->engine, v, l->text);
+    dyd_picture_paint(p, l);
   }
-  if (!names) dyd_picture_fill(c, TRIANGLE);
 }
 
 static double page_turn(const double p[2], const double q[2], const double r[2]) {
@@ -172,88 +151,77 @@ static bool pair_path(dyd_canvas *c, const delaunay_drawing *d, const double a[4
   return polygon_path(c, d, chain, n);
 }
 
-static void draw_regions(dyd_canvas *c, delaunay_drawing *d, int k) {
-  if (!d->any_wide || !d->there[k]) return;
-  for (size_t p = 0; p < d->r->pairs.count; p++) {
-    const dyd_pair *pair = &d->r->pairs.item[p];
+static void areas_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  const delaunay_drawing *d = p->what;
+  for (size_t k = 0; k < d->r->pairs.count && d->any_wide && !d->pairs.crowded; k++) {
+    const dyd_pair *pair = &d->r->pairs.item[k];
     double a[4], b[4];
-    if (pair->status != style[k].status) continue;
+    if (dyd_pairs_kind(p, k) != l->kind) continue;
     dyd_sites_get_d(a, d->r->sites, pair->i);
     dyd_sites_get_d(b, d->r->sites, pair->j);
-    if (!is_wide_box(d, a) && !is_wide_box(d, b)) continue;
-    if (pair_path(c, d, a, b, &d->dense[k])) d->region[k] = true;
-  }
-  if (d->region[k]) dyd_picture_fill(c, style[k].region);
-}
-
-static void draw_edges(dyd_canvas *c, const delaunay_drawing *d, int k) {
-  double width = d->view.line * style[k].width;
-  bool names = has_names(d), any = false;
-  if (!d->there[k]) return;
-  for (size_t p = 0; p < d->r->pairs.count; p++) {
-    const dyd_pair *pair = &d->r->pairs.item[p];
-    double z[2][2];
-    fetch_line(d, p);
-    if (pair->status != style[k].status || !line_of(z, d, pair, d->wide) || is_covered(&d->dense[k], z, 2)) continue;
-    any = true;
-    dyd_canvas_move(c, z[0][0], z[0][1]);
-    dyd_canvas_line(c, z[1][0], z[1][1]);
-    if (!names) continue;
-    dyd_picture_name_pair(c, d->r->engine, pair->i, pair->j, style_name(d, k));
-    dyd_picture_stroke(c, style[k].rgb, width, style[k].on, style[k].off);
-  }
-  if (!names && any) dyd_picture_stroke(c, style[k].rgb, width, style[k].on, style[k].off);
-}
-
-static void legend_edges(dyd_legend *l, const delaunay_drawing *d) {
-  char text[80];
-  for (int k = 2; k >= 0; k--) {
-    size_t shown = d->shown[style[k].status];
-    if (shown == 0 || (d->crowded && k == OPEN)) continue;
-    snprintf(text, sizeof text, "%s: %zu", style_name(d, k), shown);
-    dyd_legend_line(l, style[k].rgb, style[k].on, style[k].off, text);
-  }
-  for (int k = 2; k >= 0; k--) {
-    snprintf(text, sizeof text, " of %zu %s pairs across a square", d->shown[style[k].status], style_name(d, k));
-    dyd_density_legend(l, &d->dense[k], text);
+    if (is_wide_box(d, a) || is_wide_box(d, b)) pair_path(p->canvas, d, a, b, &d->pairs.dense[l->kind]);
   }
 }
 
-static void delaunay_legend(dyd_canvas *c, void *context) {
-  const delaunay_drawing *d = context;
+static bool edge_path(dyd_picture *p, size_t k) {
+  const delaunay_drawing *d = p->what;
+  double z[2][2];
+  fetch_line(d, k);
+  if (!line_of(z, d, &d->r->pairs.item[k], d->wide) || is_covered(&d->pairs.dense[dyd_pairs_kind(p, k)], z, 2))
+    return false;
+  dyd_canvas_segment(p->canvas, z);
+  return true;
+}
+
+static void delaunay_notes(dyd_legend *legend, const dyd_picture *p) {
+  const delaunay_drawing *d = p->what;
   char text[300], points[100];
-  bool graph = d->r->graph_name;
-  dyd_legend l;
-  dyd_legend_begin(&l, c, &d->view);
-  legend_edges(&l, d);
-  if (d->triangle) dyd_legend_patch(&l, TRIANGLE, "certain triangle");
-  dyd_legend_marks(&l, &d->marks, 0xf2c766);
-  if (d->region[2]) dyd_legend_patch(&l, style[2].region, graph ? "where a certain edge is" : "where a legal edge is");
-  if (d->region[1])
-    dyd_legend_patch(&l, style[1].region,
-                     graph ? "where a possible edge may be" : "where an indeterminate edge may be");
-  if (d->region[0]) dyd_legend_patch(&l, style[0].region, "where a tie may be");
   dyd_points_text(points, sizeof points, d->sites, d->r->count, d->r->window);
   snprintf(text, sizeof text, "%s, outcome %s%s; positions rounded by at most 0.01 of a pixel", points,
            dyd_outcome_text(dyd_engine_outcome(d->r->engine)),
            dyd_delaunay_is_capped(d->r->pd) ? ", not all possible pairs are shown" : "");
-  dyd_legend_text(&l, text);
-  if (d->squares)
-    dyd_legend_text(&l, "squares of legal pairs and ties hide the lines, triangles and points that are in them");
-  dyd_legend_crowd(&l, &d->marks);
+  dyd_legend_text(legend, text);
+  if (d->pairs.full)
+    dyd_legend_text(legend, "squares of legal pairs and ties hide the lines, triangles and points that are in them");
+  dyd_legend_crowd(legend, p->sites);
 }
 
-static void delaunay_inside(dyd_canvas *c, void *context) {
-  delaunay_drawing *d = context;
-  draw_triangles(c, d);
-  for (int k = 2; k >= 0 && !d->crowded; k--) draw_regions(c, d, k);
-  d->squares = dyd_density_draw(c, &d->dense[LEGAL], NULL);
-  d->squares |= dyd_density_draw(c, &d->dense[TIED], &d->dense[LEGAL]);
-  dyd_density_draw(c, &d->dense[OPEN], &d->dense[LEGAL]);
-  for (int k = 0; k < 3; k++)
-    if (!(d->crowded && k == OPEN)) draw_edges(c, d, k);
-  dyd_site_marks_draw(&d->marks, c, &d->view);
-}
+/* What a triangulation and a graph share. */
+#define SQUARES(kind, levels, place, name)                                                                             \
+  { dyd_squares_walk, kind, DYD_STYLE_SQUARES(levels), DYD_KEY_SQUARES, place, name, dyd_squares_entry }
+#define EDGES(kind, rgb, lines, on, off, place, name)                                                                  \
+  { dyd_lines_walk, kind, DYD_STYLE_LINE(rgb, lines, on, off), DYD_KEY_LINE, place, name, dyd_pairs_entry }
+#define SITES(place) DYD_SITES_LAYERS(dyd_sites_walk, dyd_sites_entry, DYD_RGB_BAND, 0xf2c766, place)
+#define AREAS(kind, rgb, place, text)                                                                                  \
+  { areas_walk, kind, DYD_STYLE_FILL(rgb), DYD_KEY_PATCH, place, text, NULL }
+#define EDGES_OPEN(name) EDGES(OPEN, DYD_RGB_INDETERMINATE, 1, 4, 2.5, 2, name)
+#define EDGES_LEGAL(name) EDGES(LEGAL, DYD_RGB_LEGAL, 1.2, 0, 0, 1, name)
+
+static const dyd_picture_layer delaunay_rows[] = {
+    {triangles_walk, 0, DYD_STYLE_FILL(DYD_RGB_TRIANGLE), DYD_KEY_PATCH, 7, "certain triangle", NULL},
+    AREAS(LEGAL, DYD_RGB_LEGAL_AREA, 9, "where a legal edge is"),
+    AREAS(OPEN, DYD_RGB_INDETERMINATE_AREA, 10, "where an indeterminate edge may be"),
+    AREAS(TIED, DYD_RGB_TIE_AREA, 11, "where a tie may be"),
+    SQUARES(LEGAL, &dyd_density_full, 4, "legal"),
+    SQUARES(TIED, &dyd_density_full_grey, 6, "tie"),
+    SQUARES(OPEN, &dyd_density_all, 5, "indeterminate"),
+    EDGES(TIED, DYD_RGB_TIE, 1, 0.2, 2.2, 3, "tie"),
+    EDGES_OPEN("indeterminate"),
+    EDGES_LEGAL("legal"),
+    SITES(8)};
+
+/* Pairs of graphs are certain or possible. */
+static const dyd_picture_layer graph_rows[] = {
+    AREAS(LEGAL, DYD_RGB_LEGAL_AREA, 6, "where a certain edge is"),
+    AREAS(OPEN, DYD_RGB_INDETERMINATE_AREA, 7, "where a possible edge may be"),
+    SQUARES(LEGAL, &dyd_density_full, 3, "certain"),
+    SQUARES(OPEN, &dyd_density_all, 4, "possible"),
+    EDGES_OPEN("possible"),
+    EDGES_LEGAL("certain"),
+    SITES(5)};
+
+const dyd_picture_table dyd_delaunay_layers = DYD_PICTURE_TABLE(delaunay_rows, delaunay_notes),
+                        dyd_graph_layers = DYD_PICTURE_TABLE(graph_rows, delaunay_notes);
 
 /* ---- the part shown ---- */
 
@@ -288,7 +256,7 @@ static dyd_status delaunay_see(delaunay_drawing *d, const dyd_output *o) {
   }
   if (!find_middles(d)) return DYD_E_NOMEM;
   for (size_t p = 0; p < r->pairs.count; p++)
-    d->shown[r->pairs.item[p].status] += !r->window || line_of(line, d, &r->pairs.item[p], f);
+    d->pairs.shown[dyd_pairs_kind(&d->picture, p)] += !r->window || line_of(line, d, &r->pairs.item[p], f);
   return DYD_OK;
 }
 
@@ -306,35 +274,42 @@ static bool are_rectangles_a_mass(const delaunay_drawing *d) {
 
 /* Where lines are too many to be named, full squares are drawn instead of them. */
 static dyd_status find_density(delaunay_drawing *d) {
-  static const dyd_density_levels *const levels[3] = {&dyd_density_full_grey, &dyd_density_all, &dyd_density_full};
-  for (int k = 0; k < 3; k++)
-    if ((k == OPEN || !has_names(d)) && !dyd_density_init(&d->dense[k], &d->view, levels[k])) return DYD_E_NOMEM;
+  const dyd_picture_table *table = d->picture.table;
+  for (const dyd_picture_layer *l = table->row; l < table->row + table->count; l++)
+    if (l->style.levels && (l->kind == OPEN || !has_names(d)) &&
+        !dyd_density_init(&d->pairs.dense[l->kind], &d->view, l->style.levels))
+      return DYD_E_NOMEM;
   for (size_t p = 0; p < d->r->pairs.count; p++) {
     double z[2][2];
-    int k = style_of(d->r->pairs.item[p].status);
+    int k = dyd_pairs_kind(&d->picture, p);
     fetch_line(d, p);
-    d->there[k] = true;
-    if (!d->dense[k].count) continue;
-    dyd_density_begin(&d->dense[k]);
-    if (line_of(z, d, &d->r->pairs.item[p], d->view.frame)) dyd_density_add(&d->dense[k], z);
+    if (!d->pairs.dense[k].count) continue;
+    dyd_density_begin(&d->pairs.dense[k]);
+    if (line_of(z, d, &d->r->pairs.item[p], d->view.frame)) dyd_density_add(&d->pairs.dense[k], z);
   }
-  d->crowded = dyd_density_is_crowded(&d->dense[OPEN]);
-  if (!d->crowded) dyd_density_clear(&d->dense[OPEN]);
-  d->view.dots = d->crowded && (d->view.apart < CLOSE || are_rectangles_a_mass(d));
-  if (d->dense[LEGAL].count) d->marks.under = &d->dense[LEGAL];
+  dyd_pairs_settle(&d->pairs);
+  d->view.dots = d->pairs.crowded && (d->view.apart < CLOSE || are_rectangles_a_mass(d));
+  if (d->pairs.dense[LEGAL].count) d->marks.under = &d->pairs.dense[LEGAL];
   return DYD_OK;
 }
 
 dyd_status dyd_delaunay_picture(const dyd_output *o) {
   const dyd_result *r = o->what;
-  delaunay_drawing d = {.r = r, .marks = dyd_site_marks_of(r->pd, r->engine, DYD_PICTURE_BAND)};
+  const char *graph = r->graph_name;
+  delaunay_drawing d = {.r = r,
+                        .marks = dyd_sites_shown_of(r->pd, r->engine),
+                        .pairs = {.list = &r->pairs, .engine = r->engine},
+                        .picture = {graph ? &dyd_graph_layers : &dyd_delaunay_layers,
+                                    graph ? graph : "partial Delaunay triangulation",
+                                    .lines = {r->pairs.count, dyd_pairs_kind, edge_path, NULL}}};
+  d.picture.view = &d.view, d.picture.what = &d, d.picture.sites = &d.marks, d.picture.pairs = &d.pairs;
   dyd_status st = delaunay_see(&d, o);
-  const char *title = d.r->graph_name ? d.r->graph_name : "partial Delaunay triangulation";
-  if (st == DYD_OK && !d.r->graph_name) st = dyd_delaunay_triangles(&d.triangles, NULL, d.r->pd, 0);
+  if (st == DYD_OK && !graph) st = dyd_delaunay_triangles(&d.triangles, NULL, r->pd, 0);
   if (st == DYD_OK) st = find_density(&d);
-  if (st == DYD_OK) st = dyd_view_write(o, &d.view, title, delaunay_inside, delaunay_legend, &d);
+  if (has_names(&d)) d.picture.lines.name = dyd_pairs_name;
+  if (st == DYD_OK) st = dyd_picture_write(&d.picture, o);
   dyd_triangle_list_clear(&d.triangles);
-  for (int k = 0; k < 3; k++) dyd_density_clear(&d.dense[k]);
+  for (int k = 0; k < 3; k++) dyd_density_clear(&d.pairs.dense[k]);
   free(d.at);
   return st;
 }
@@ -342,15 +317,8 @@ dyd_status dyd_delaunay_picture(const dyd_output *o) {
 /* ---- tolerances ---- */
 
 /* Of all edges, the quarter that dies first, and so on; distinct for all kinds of sight, and in grey. Then ties. */
+/* Of all edges, the quarter that dies first, and so on; distinct for all kinds of sight, and in grey. Then ties. */
 enum { CLASSES = 4 };
-static const struct {
-  unsigned rgb;
-  double on, off, width;
-} bearing[CLASSES + 1] = {{0xd55e00, 3, 2, 1.4},
-                          {0xe69f00, 6, 2, 1.2},
-                          {0x56b4e9, 0, 0, 1.0},
-                          {0x004c80, 0, 0, 1.4},
-                          {0x6b6b6b, 0.2, 2.2, 1.0}};
 
 typedef struct tolerance_drawing {
   const dyd_result *r;
@@ -359,8 +327,7 @@ typedef struct tolerance_drawing {
   const dyd_tolerance *t;
   dyd_view view;
   double bound[CLASSES - 1]; /* from where on an edge belongs to the next class */
-  bool seen[CLASSES + 1];    /* was drawn */
-  dyd_site_marks marks;
+  dyd_sites_shown marks;
 } tolerance_drawing;
 
 static const char *rounded(char out[DYD_DECIMAL_SIZE], double x, int digits, dyd_round to) {
@@ -391,7 +358,9 @@ static dyd_status find_classes(tolerance_drawing *g) {
 }
 
 /* -1: a birth, which is not drawn. */
-static int class_of(const tolerance_drawing *g, const dyd_tolerance_row *row) {
+static int class_of(const dyd_picture *p, size_t k) {
+  const tolerance_drawing *g = p->what;
+  const dyd_tolerance_row *row = &g->row[k];
   if (row->event == DYD_EVENT_BIRTH) return -1;
   if (row->event == DYD_EVENT_TIE) return CLASSES;
   int c = 0;
@@ -399,77 +368,77 @@ static int class_of(const tolerance_drawing *g, const dyd_tolerance_row *row) {
   return c;
 }
 
-static void tolerance_name(dyd_canvas *c, const tolerance_drawing *g, const dyd_tolerance_row *row) {
+static bool tolerance_path(dyd_picture *p, size_t k) {
+  const tolerance_drawing *g = p->what;
+  return dyd_picture_join(p, g->r, g->row[k].i, g->row[k].j);
+}
+
+/* Of many no line has a name, but each is an element all the same. */
+static void tolerance_name(dyd_picture *p, const dyd_picture_layer *l, size_t k) {
+  const tolerance_drawing *g = p->what;
+  const dyd_tolerance_row *row = &g->row[k];
   char text[80], number[DYD_DECIMAL_SIZE];
+  if (g->rows > DYD_PICTURE_NAMES) return;
   if (row->event == DYD_EVENT_TIE)
-    snprintf(text, sizeof text, "tie");
+    snprintf(text, sizeof text, "%s", l->text);
   else if (!isfinite(row->lo))
     snprintf(text, sizeof text, "not lost by any motion");
   else
     snprintf(text, sizeof text, "not lost below %s", rounded(number, row->lo, 3, DYD_DOWN));
-  dyd_picture_name_pair(c, g->r->engine, row->i, row->j, text);
-}
-
-static void tolerance_edges(dyd_canvas *c, tolerance_drawing *g, int class) {
-  for (size_t k = 0; k < g->rows; k++) {
-    double z[2][2];
-    if (class_of(g, &g->row[k]) != class || !dyd_view_line(z, &g->view, g->r, g->row[k].i, g->row[k].j)) continue;
-    g->seen[class] = true;
-    dyd_canvas_move(c, z[0][0], z[0][1]);
-    dyd_canvas_line(c, z[1][0], z[1][1]);
-    if (g->rows <= DYD_PICTURE_NAMES) tolerance_name(c, g, &g->row[k]);
-    dyd_picture_stroke(c, bearing[class].rgb, g->view.line * bearing[class].width, bearing[class].on,
-                       bearing[class].off);
-  }
-}
-
-static void tolerance_inside(dyd_canvas *c, void *context) {
-  tolerance_drawing *g = context;
-  for (int k = CLASSES; k >= 0; k--) tolerance_edges(c, g, k);
-  dyd_site_marks_draw(&g->marks, c, &g->view);
+  dyd_picture_name_pair(p->canvas, g->r->engine, row->i, row->j, text);
 }
 
 /* Bounds are those of their two digits. */
-static void class_text(char *out, size_t size, const tolerance_drawing *g, int class) {
-  char number[DYD_DECIMAL_SIZE];
-  if (class < CLASSES - 1 && isfinite(g->bound[class]))
-    snprintf(out, size, "less than %s", rounded(number, g->bound[class], 2, DYD_DOWN));
-  else if (class && isfinite(g->bound[class - 1]))
-    snprintf(out, size, "%s or more", rounded(number, g->bound[class - 1], 2, DYD_DOWN));
+static void class_entry(dyd_legend *legend, const dyd_picture *p, const dyd_picture_layer *l) {
+  const tolerance_drawing *g = p->what;
+  char text[80], number[DYD_DECIMAL_SIZE];
+  if (!dyd_picture_drawn(p, l)) return;
+  if (l->kind < CLASSES - 1 && isfinite(g->bound[l->kind]))
+    snprintf(text, sizeof text, "less than %s", rounded(number, g->bound[l->kind], 2, DYD_DOWN));
+  else if (l->kind && isfinite(g->bound[l->kind - 1]))
+    snprintf(text, sizeof text, "%s or more", rounded(number, g->bound[l->kind - 1], 2, DYD_DOWN));
   else
-    snprintf(out, size, "not lost by any motion");
+    snprintf(text, sizeof text, "not lost by any motion");
+  dyd_legend_put(legend, l, text);
 }
 
-static void tolerance_legend(dyd_canvas *c, void *context) {
-  const tolerance_drawing *g = context;
+static void tolerance_notes(dyd_legend *legend, const dyd_picture *p) {
+  const tolerance_drawing *g = p->what;
   char text[200], number[DYD_DECIMAL_SIZE];
   const dyd_tolerance_result *of = dyd_tolerance_get(g->t);
-  dyd_legend l;
-  dyd_legend_begin(&l, c, &g->view);
-  for (int k = 0; k < CLASSES; k++) {
-    if (!g->seen[k]) continue;
-    class_text(text, sizeof text, g, k);
-    dyd_legend_line(&l, bearing[k].rgb, bearing[k].on, bearing[k].off, text);
-  }
-  if (g->seen[CLASSES]) dyd_legend_line(&l, bearing[CLASSES].rgb, bearing[CLASSES].on, bearing[CLASSES].off, "tie");
-  if (g->marks.drawn[DYD_MARK_DOT]) dyd_legend_dot(&l, 0x222222, 0x222222, "point");
   snprintf(text, sizeof text, "%zu points; edges by how far all may move%s before they may be lost; %s%s", g->r->count,
            of->metric == DYD_METRIC_BOX ? ", in x and y each," : "",
            isfinite(of->lo) ? "nothing changes below " : "no motion changes anything",
            isfinite(of->lo) ? rounded(number, of->lo, 3, DYD_DOWN) : "");
-  dyd_legend_text(&l, text);
-  dyd_legend_crowd(&l, &g->marks);
+  dyd_legend_text(legend, text);
+  dyd_legend_crowd(legend, p->sites);
 }
+
+#define CLASS(k, rgb, lines, on, off)                                                                                  \
+  { dyd_lines_walk, k, DYD_STYLE_LINE(rgb, lines, on, off), DYD_KEY_LINE, k + 1, "a quarter of the edges", class_entry }
+
+static const dyd_picture_layer tolerance_rows[] = {
+    {dyd_lines_walk, CLASSES, DYD_STYLE_LINE(DYD_RGB_TIE, 1, 0.2, 2.2), DYD_KEY_LINE, CLASSES + 1, "tie", NULL},
+    CLASS(3, 0x004c80, 1.4, 0, 0),
+    CLASS(2, 0x56b4e9, 1, 0, 0),
+    CLASS(1, 0xe69f00, 1.2, 6, 2),
+    CLASS(0, 0xd55e00, 1.4, 3, 2),
+    {dyd_sites_walk, 0, DYD_STYLE_SITES(DYD_RGB_BAND, 0), DYD_KEY_NONE, 0, "rectangle of a point", NULL},
+    {NULL, 1, DYD_SITES_DOTS, DYD_KEY_DOT, CLASSES + 2, "point", NULL}};
+
+const dyd_picture_table dyd_tolerance_layers = DYD_PICTURE_TABLE(tolerance_rows, tolerance_notes);
 
 dyd_status dyd_tolerance_picture(const dyd_output *o) {
   const dyd_result *r = o->what;
-  tolerance_drawing g = {.r = r, .t = r->tolerance, .marks = dyd_site_marks_of(r->pd, r->engine, DYD_PICTURE_BAND)};
+  tolerance_drawing g = {.r = r, .t = r->tolerance, .marks = dyd_sites_shown_of(r->pd, r->engine)};
   g.rows = dyd_tolerance_rows(&g.row, g.t);
   dyd_status st = find_classes(&g);
   if (st == DYD_OK) st = dyd_view_of(&g.view, o, NULL);
-  return st == DYD_OK ? dyd_view_write(o, &g.view, "tolerance of the Delaunay triangulation", tolerance_inside,
-                                       tolerance_legend, &g)
-                      : st;
+  if (st != DYD_OK) return st;
+  return dyd_picture_write(&(dyd_picture){&dyd_tolerance_layers, "tolerance of the Delaunay triangulation",
+                                          .view = &g.view, .what = &g, .sites = &g.marks,
+                                          .lines = {g.rows, class_of, tolerance_path, tolerance_name}},
+                           o);
 }
 
 /* ---- the table of pictures ---- */

@@ -26,24 +26,26 @@
 #define CURVE 0x0072b2
 #define INSIDE 0xcfe4f3
 
-typedef unsigned (*site_colour)(const void *context, size_t i);
+#define CALLED(rgb) DYD_STYLE_SHAPE(rgb, 0x222222, 0, 1.5)
 
-/* Draws n rectangles, those of the first sites of e, and their numbers or identifiers, of which the first ones have the
- * choice where they stand. over: the first ones are drawn over the others. */
-static void draw_called(dyd_canvas *c, const dyd_view *v, const dyd_engine *e, const dyd_rect *const *r, size_t n,
-                        bool over, site_colour colour, const void *context) {
+/* Draws n rectangles, those of the first sites of e, in the layer as far behind l as `behind` says, and their numbers
+ * or identifiers, of which the first ones have the choice where they stand. over: the first ones are drawn over the
+ * others. */
+static void draw_called(dyd_picture *p, const dyd_picture_layer *l, const dyd_engine *e, const dyd_rect *const *r,
+                        size_t n, bool over, int (*behind)(const void *what, size_t i)) {
   DYD_SCOPED(dyd_numbers) labels;
   double b[4];
-  bool numbers = dyd_numbers_init(&labels, v);
+  bool numbers = dyd_numbers_init(&labels, p->view);
   for (size_t k = 0; k < n; k++) {
     size_t i = over ? n - 1 - k : k;
     dyd_rect_get_d(b, r[i]);
-    dyd_picture_marked(c, v, b, e, i, colour(context, i));
+    dyd_picture_marked(p->canvas, p->view, b, e, i);
+    dyd_picture_paint(p, l + behind(p->what, i));
     if (numbers) dyd_numbers_keep_off(&labels, b);
   }
   for (size_t i = 0; i < n && numbers; i++) {
     dyd_rect_get_d(b, r[i]);
-    dyd_numbers_put(&labels, c, b, 18, e, i);
+    dyd_numbers_put(&labels, p->canvas, b, 18, e, i);
   }
 }
 
@@ -51,7 +53,6 @@ static void draw_called(dyd_canvas *c, const dyd_view *v, const dyd_engine *e, c
 
 enum { CIRCLES = 6, ONCE = 3, WHITE = 0xffffff };
 
-#define TRIPLE 0x777777
 #define LARGE 1e5 /* radius in points from where only the part near the picture is drawn */
 #define MOST 1e13 /* radius from which doubles do not give the circle to hundredths of a point */
 
@@ -105,18 +106,26 @@ static void circle_path(dyd_canvas *c, const disc_drawing *g, int k, bool closed
     large_circle_path(c, &g->view, x, y, radius, closed);
 }
 
-static void disc_areas(dyd_canvas *c, const disc_drawing *g) {
-  for (int k = ONCE; k < CIRCLES; k++) {
-    circle_path(c, g, k, true);
-    dyd_picture_fill(c, DYD_PICTURE_BAND);
+static void outside_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  const disc_drawing *g = p->what;
+  if (!g->d->known) dyd_frame_walk(p, l);
+  for (int k = ONCE; k < CIRCLES && g->d->known; k++) {
+    circle_path(p->canvas, g, k, true);
+    dyd_picture_paint(p, l);
   }
+}
+
+/* Outside is the page. */
+static void inside_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  const disc_drawing *g = p->what;
+  if (!g->d->known) return;
   for (int k = 0; k < ONCE; k++) {
-    circle_path(c, g, k, true);
-    dyd_canvas_clip(c);
+    circle_path(p->canvas, g, k, true);
+    dyd_canvas_clip(p->canvas);
   }
-  dyd_view_frame_path(c, &g->view);
-  dyd_picture_fill(c, INSIDE);
-  for (int k = 0; k < ONCE; k++) dyd_canvas_unclip(c);
+  dyd_frame_walk(p, l);
+  for (int k = 0; k < ONCE; k++) dyd_canvas_unclip(p->canvas);
+  dyd_picture_seen(p, l + 1);
 }
 
 /* The rectangles that a circle encloses: number k of three alone, or all but it. */
@@ -132,68 +141,60 @@ static void name_circle(dyd_canvas *c, const char *what, int k) {
   dyd_canvas_name(c, id, title);
 }
 
-static void disc_circles(dyd_canvas *c, const disc_drawing *g) {
-  for (int k = 0; k < CIRCLES; k++) {
-    name_circle(c, "circle", k);
-    circle_path(c, g, k, false);
-    dyd_picture_stroke(c, CURVE, 1.5, k < ONCE ? 0 : 4, k < ONCE ? 0 : 2.5);
+/* kind: the first of the three circles. */
+static void circles_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  const disc_drawing *g = p->what;
+  for (int k = l->kind; k < l->kind + ONCE && g->d->known; k++) {
+    name_circle(p->canvas, "circle", k);
+    circle_path(p->canvas, g, k, false);
+    dyd_picture_paint(p, l);
   }
-  for (int k = 0; k < CIRCLES; k++) {
-    double x = dyd_view_x(&g->view, g->at[k][0]), y = dyd_view_y(&g->view, g->at[k][1]);
+}
+
+static void centres_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  const disc_drawing *g = p->what;
+  for (int k = l->kind; k < l->kind + ONCE && g->d->known; k++) {
+    double x = dyd_view_x(p->view, g->at[k][0]), y = dyd_view_y(p->view, g->at[k][1]);
+    dyd_picture_seen(p, l); /* also where it is far away */
     if (!(fabs(x) < LARGE && fabs(y) < LARGE)) continue;
-    name_circle(c, "centre", k);
-    dyd_picture_dot(c, x, y, 3, k < ONCE ? CURVE : WHITE, CURVE);
+    name_circle(p->canvas, "centre", k);
+    dyd_canvas_circle(p->canvas, x, y, 3);
+    dyd_picture_paint(p, l);
   }
 }
 
-static unsigned con_colour(dyd_sure con) {
-  return con == DYD_SURE_PLUS ? CURVE : con == DYD_SURE_MINUS ? WHITE : 0xd55e00;
+static int disc_behind(const void *what, size_t i) {
+  const disc_drawing *g = what;
+  if (i < 3) return 0;
+  const dyd_sure con = dyd_partial_disc_con(g->d, g->r[i]);
+  return con == DYD_SURE_PLUS ? 1 : con == DYD_SURE_MINUS ? 2 : 3;
 }
 
-static unsigned disc_colour(const void *context, size_t i) {
-  const disc_drawing *g = context;
-  return i < 3 ? TRIPLE : con_colour(dyd_partial_disc_con(g->d, g->r[i]));
+static void disc_sites_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  const disc_drawing *g = p->what;
+  draw_called(p, l, g->engine, g->r, g->n, true, disc_behind);
 }
 
-/* Which of the others there are: inside, outside, not known. */
-static bool has_con(const disc_drawing *g, dyd_sure con) {
-  for (size_t i = 3; i < g->n; i++)
-    if (dyd_partial_disc_con(g->d, g->r[i]) == con) return true;
-  return false;
+static void disc_notes(dyd_legend *legend, const dyd_picture *p) {
+  if (!((const disc_drawing *)p->what)->d->known)
+    dyd_legend_text(legend, "0, 1 and 2 may be on a line: there is no partial disc");
 }
 
-static void disc_legend(dyd_canvas *c, void *context) {
-  const disc_drawing *g = context;
-  dyd_legend l;
-  dyd_legend_begin(&l, c, &g->view);
-  if (g->d->known) dyd_legend_patch(&l, INSIDE, "certainly inside");
-  if (g->d->known) dyd_legend_patch(&l, WHITE, "certainly outside");
-  dyd_legend_patch(&l, DYD_PICTURE_BAND, "undecided");
-  dyd_legend_patch(&l, TRIPLE, "the three points");
-  if (has_con(g, DYD_SURE_PLUS)) dyd_legend_patch(&l, con_colour(DYD_SURE_PLUS), "point certainly inside");
-  if (has_con(g, DYD_SURE_MINUS)) dyd_legend_patch(&l, con_colour(DYD_SURE_MINUS), "point certainly outside");
-  if (has_con(g, DYD_UNSURE)) dyd_legend_patch(&l, con_colour(DYD_UNSURE), "point of which it is not known");
-  if (!g->d->known) {
-    dyd_legend_text(&l, "0, 1 and 2 may be on a line: there is no partial disc");
-    return;
-  }
-  dyd_legend_line(&l, CURVE, 0, 0, "circle around one of 0 1 2, touching two");
-  dyd_legend_line(&l, CURVE, 4, 2.5, "around two, touching one");
-  dyd_legend_dot(&l, CURVE, CURVE, "centre of a full circle");
-  dyd_legend_dot(&l, WHITE, CURVE, "of a dashed one");
-}
+static const dyd_picture_layer disc_rows[] = {
+    {outside_walk, 0, DYD_STYLE_FILL(DYD_RGB_BAND), DYD_KEY_PATCH, 3, "undecided", NULL},
+    {inside_walk, 0, DYD_STYLE_FILL(INSIDE), DYD_KEY_PATCH, 1, "certainly inside", NULL},
+    {NULL, 0, DYD_STYLE_FILL(WHITE), DYD_KEY_PATCH, 2, "certainly outside", NULL},
+    {circles_walk, 0, DYD_STYLE_PEN(CURVE, 1.5, 0, 0), DYD_KEY_LINE, 8, "circle around one of 0 1 2, touching two",
+     NULL},
+    {circles_walk, ONCE, DYD_STYLE_PEN(CURVE, 1.5, 4, 2.5), DYD_KEY_LINE, 9, "around two, touching one", NULL},
+    {centres_walk, 0, DYD_STYLE_SHAPE(CURVE, CURVE, 0, 1.2), DYD_KEY_DOT, 10, "centre of a full circle", NULL},
+    {centres_walk, ONCE, DYD_STYLE_SHAPE(WHITE, CURVE, 0, 1.2), DYD_KEY_DOT, 11, "of a dashed one", NULL},
+    {disc_sites_walk, 0, CALLED(0x777777), DYD_KEY_PATCH, 4, "the three points", NULL},
+    {NULL, 1, CALLED(CURVE), DYD_KEY_PATCH, 5, "point certainly inside", NULL},
+    {NULL, 2, CALLED(WHITE), DYD_KEY_PATCH, 6, "point certainly outside", NULL},
+    {NULL, 3, CALLED(0xd55e00), DYD_KEY_PATCH, 7, "point of which it is not known", NULL}};
 
-static void disc_inside(dyd_canvas *c, void *context) {
-  const disc_drawing *g = context;
-  if (g->d->known) {
-    disc_areas(c, g);
-    disc_circles(c, g);
-  } else {
-    dyd_view_frame_path(c, &g->view);
-    dyd_picture_fill(c, DYD_PICTURE_BAND);
-  }
-  draw_called(c, &g->view, g->engine, g->r, g->n, true, disc_colour, g);
-}
+const dyd_picture_table dyd_disc_layers = DYD_PICTURE_TABLE(disc_rows, disc_notes);
 
 /* The circles, cut at the size of the rectangles around them. */
 static void see_circles(double box[4], const double at[CIRCLES][3]) {
@@ -225,12 +226,11 @@ dyd_status dyd_disc_picture(const dyd_output *o) {
   disc_drawing g = {.d = c->disc, .r = c->r, .n = c->n, .engine = c->engine};
   for (int k = 0; k < CIRCLES && g.d->known; k++) place_circle(g.at[k], &g.d->circle[k]);
   dyd_status st = disc_view(&g, o->err);
-  return st == DYD_OK ? dyd_view_write(o, &g.view, "partial disc", disc_inside, disc_legend, &g) : st;
+  if (st != DYD_OK) return st;
+  return dyd_picture_write(&(dyd_picture){&dyd_disc_layers, "partial disc", .view = &g.view, .what = &g}, o);
 }
 
 /* ---- a partial bisector ---- */
-
-static const unsigned tint[2] = {0xcfe4f3, 0xd9eccf}, body[2] = {0x6aaed6, 0x8cc27a};
 
 typedef struct bisector_drawing {
   const dyd_rect *const *r;
@@ -331,7 +331,7 @@ static void piece_path(dyd_canvas *c, const dyd_view *v, const drawn_arc *p) {
 }
 
 /* The part on the left of the chain, closed far outside of the picture. */
-static void fill_left(dyd_canvas *c, const bisector_drawing *d, const dyd_chain *chain, unsigned rgb) {
+static void left_path(dyd_canvas *c, const bisector_drawing *d, const dyd_chain *chain) {
   drawn_arc p = {0};
   double begin[2] = {0}, *end = p.at[2], n[2];
   for (size_t k = 0; k < chain->count; k++) {
@@ -345,81 +345,77 @@ static void fill_left(dyd_canvas *c, const bisector_drawing *d, const dyd_chain 
   line_to(c, &d->view, end[0] + n[0], end[1] + n[1]);
   line_to(c, &d->view, begin[0] + n[0], begin[1] + n[1]);
   dyd_canvas_close(c);
-  dyd_picture_fill(c, rgb);
 }
 
-static void draw_arc(dyd_canvas *c, const bisector_drawing *d, const dyd_arc *a, int curve, size_t number) {
-  drawn_arc p = piece_of(d, a);
+static void left_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  const bisector_drawing *d = p->what;
+  if (d->curve[l->kind].count) left_path(p->canvas, d, d->curve[l->kind].chain);
+}
+
+/* Parabolas are of the layer behind l. */
+static void draw_arc(dyd_picture *page, const dyd_picture_layer *l, const dyd_arc *a, int curve, size_t number) {
+  drawn_arc p = piece_of(page->what, a);
   char id[48], title[120];
   snprintf(id, sizeof id, "arc-%d-%zu", curve, number);
   snprintf(title, sizeof title, "%s: the bound of the region certainly nearer to %d, piece %zu",
            p.curved ? "parabola" : "line", curve, number);
-  dyd_canvas_name(c, id, title);
-  piece_path(c, &d->view, &p);
-  dyd_picture_stroke(c, CURVE, 1.8, p.curved ? 4 : 0, p.curved ? 2.5 : 0);
+  dyd_canvas_name(page->canvas, id, title);
+  piece_path(page->canvas, page->view, &p);
+  dyd_picture_paint(page, l + p.curved);
 }
 
-static void bisector_mark(dyd_canvas *c, double x, double y, dyd_end_kind kind) {
-  dyd_picture_dot(c, x, y, 3.5, kind == DYD_END_AXIS ? CURVE : 0xffffff, CURVE);
+static void arcs_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  const bisector_drawing *d = p->what;
+  for (int k = 0; k < 2; k++)
+    for (size_t a = 0; d->curve[k].count && a < d->curve[k].chain->count; a++)
+      draw_arc(p, l, &d->curve[k].chain->arc[a], k, a);
 }
 
-static void draw_ends(dyd_canvas *c, const bisector_drawing *d, const dyd_chain *chain) {
+/* Those out of sight are in the legend, too. */
+static void joints_walk(dyd_picture *p, const dyd_picture_layer *first) {
+  const bisector_drawing *d = p->what;
   double limit = 2 * d->reach, at[2];
-  for (size_t k = 1; k < chain->count; k++) {
-    dyd_exact_middle(at, &chain->arc[k].begin.at);
-    if (!(fabs(at[0] - d->view.left) < limit && fabs(at[1] - d->view.top) < limit)) continue;
-    bisector_mark(c, dyd_view_x(&d->view, at[0]), dyd_view_y(&d->view, at[1]), chain->arc[k].begin.kind);
-  }
-}
-
-static void draw_curves(dyd_canvas *c, const bisector_drawing *d) {
-  const dyd_chain *chain[2] = {d->curve[0].chain, d->curve[1].chain};
-  dyd_view_frame_path(c, &d->view);
-  dyd_picture_fill(c, DYD_PICTURE_BAND);
   for (int k = 0; k < 2; k++)
-    if (d->curve[k].count) fill_left(c, d, chain[k], tint[k]);
-  for (int k = 0; k < 2; k++)
-    for (size_t a = 0; d->curve[k].count && a < chain[k]->count; a++) draw_arc(c, d, &chain[k]->arc[a], k, a);
-  for (int k = 0; k < 2; k++)
-    if (d->curve[k].count) draw_ends(c, d, chain[k]);
-}
-
-/* Which kinds of arcs, and of joints, there are. */
-static void bisector_kinds(bool arcs[2], bool joints[2], const bisector_drawing *d) {
-  for (int k = 0; k < 2; k++)
-    for (size_t a = 0; d->curve[k].count && a < d->curve[k].chain->count; a++) {
-      const dyd_arc *arc = &d->curve[k].chain->arc[a];
-      arcs[arc->kind == DYD_ARC_PARABOLA] = true;
-      if (a > 0) joints[arc->begin.kind == DYD_END_AXIS] = true;
+    for (size_t a = 1; d->curve[k].count && a < d->curve[k].chain->count; a++) {
+      const dyd_arc_end *end = &d->curve[k].chain->arc[a].begin;
+      const dyd_picture_layer *l = first + (end->kind != DYD_END_AXIS);
+      dyd_picture_seen(p, l);
+      dyd_exact_middle(at, &end->at);
+      if (!(fabs(at[0] - p->view->left) < limit && fabs(at[1] - p->view->top) < limit)) continue;
+      dyd_canvas_circle(p->canvas, dyd_view_x(p->view, at[0]), dyd_view_y(p->view, at[1]), 3.5);
+      dyd_picture_paint(p, l);
     }
 }
 
-static void bisector_legend(dyd_canvas *c, void *context) {
-  const bisector_drawing *d = context;
-  bool arcs[2] = {false, false}, joints[2] = {false, false};
-  dyd_legend l;
-  dyd_legend_begin(&l, c, &d->view);
-  bisector_kinds(arcs, joints, d);
-  if (d->curve[0].count) dyd_legend_patch(&l, tint[0], "certainly nearer to 0");
-  if (d->curve[1].count) dyd_legend_patch(&l, tint[1], "certainly nearer to 1");
-  dyd_legend_patch(&l, DYD_PICTURE_BAND, "undecided");
-  if (arcs[0]) dyd_legend_line(&l, CURVE, 0, 0, "line");
-  if (arcs[1]) dyd_legend_line(&l, CURVE, 4, 2.5, "parabola");
-  if (joints[1]) dyd_legend_dot(&l, CURVE, CURVE, "from here on another corner of the one rectangle is farthest");
-  if (joints[0]) dyd_legend_dot(&l, 0xffffff, CURVE, "another corner or side of the other is closest");
-  if (!d->curve[0].count) dyd_legend_text(&l, "the rectangles meet: no place is certainly nearer to one of them");
+static int bisector_behind(const void *what, size_t i) {
+  (void)what;
+  return (int)i;
 }
 
-static unsigned bisector_colour(const void *context, size_t i) {
-  (void)context;
-  return body[i];
+static void bisector_sites_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  const bisector_drawing *d = p->what;
+  draw_called(p, l, d->engine, d->r, 2, false, bisector_behind);
 }
 
-static void bisector_inside(dyd_canvas *c, void *context) {
-  const bisector_drawing *d = context;
-  draw_curves(c, d);
-  draw_called(c, &d->view, d->engine, d->r, 2, false, bisector_colour, NULL);
+static void bisector_notes(dyd_legend *legend, const dyd_picture *p) {
+  if (!((const bisector_drawing *)p->what)->curve[0].count)
+    dyd_legend_text(legend, "the rectangles meet: no place is certainly nearer to one of them");
 }
+
+static const dyd_picture_layer bisector_rows[] = {
+    {dyd_frame_walk, 0, DYD_STYLE_FILL(DYD_RGB_BAND), DYD_KEY_PATCH, 3, "undecided", NULL},
+    {left_walk, 0, DYD_STYLE_FILL(INSIDE), DYD_KEY_PATCH, 1, "certainly nearer to 0", NULL},
+    {left_walk, 1, DYD_STYLE_FILL(0xd9eccf), DYD_KEY_PATCH, 2, "certainly nearer to 1", NULL},
+    {arcs_walk, 0, DYD_STYLE_PEN(CURVE, 1.8, 0, 0), DYD_KEY_LINE, 4, "line", NULL},
+    {NULL, 1, DYD_STYLE_PEN(CURVE, 1.8, 4, 2.5), DYD_KEY_LINE, 5, "parabola", NULL},
+    {joints_walk, 0, DYD_STYLE_SHAPE(CURVE, CURVE, 0, 1.2), DYD_KEY_DOT, 6,
+     "from here on another corner of the one rectangle is farthest", NULL},
+    {NULL, 1, DYD_STYLE_SHAPE(WHITE, CURVE, 0, 1.2), DYD_KEY_DOT, 7, "another corner or side of the other is closest",
+     NULL},
+    {bisector_sites_walk, 0, CALLED(0x6aaed6), DYD_KEY_NONE, 0, "point 0", NULL},
+    {NULL, 1, CALLED(0x8cc27a), DYD_KEY_NONE, 0, "point 1", NULL}};
+
+const dyd_picture_table dyd_bisector_layers = DYD_PICTURE_TABLE(bisector_rows, bisector_notes);
 
 /* *box grows by the ends that are not far out. */
 static void see_ends(double box[4], const dyd_boundary *b, double reach) {
@@ -446,13 +442,12 @@ dyd_status dyd_bisector_picture(const dyd_output *o) {
   st = dyd_view_fit(&d.view, see, 0, o->err);
   if (st != DYD_OK) return st;
   d.reach = 10 * (d.view.width + d.view.height) / d.view.scale;
-  return dyd_view_write(o, &d.view, "partial bisector", bisector_inside, bisector_legend, &d);
+  return dyd_picture_write(&(dyd_picture){&dyd_bisector_layers, "partial bisector", .view = &d.view, .what = &d}, o);
 }
 
 /* ---- nearest points ---- */
 
-#define POSSIBLE 0xd55e00
-#define NOT 0xffffff
+enum { NOT, SURE, POSSIBLE };
 
 typedef struct nearest_drawing {
   const dyd_delaunay *pd;
@@ -462,7 +457,7 @@ typedef struct nearest_drawing {
   dyd_view view;
   double place[4], near, far; /* Q, m, M */
   size_t count;               /* sites that are no duplicates */
-  bool others;                /* some that are certainly not nearest are drawn */
+  dyd_numbers labels;         /* owned; kept off what is drawn before them */
 } nearest_drawing;
 
 static double least_distance(const double a[4], const double b[4]) {
@@ -506,27 +501,17 @@ static void around_path(dyd_canvas *c, const nearest_drawing *g, double reach) {
   dyd_canvas_close(c);
 }
 
-static void nearest_areas(dyd_canvas *c, const nearest_drawing *g) {
-  around_path(c, g, g->far);
-  dyd_picture_fill(c, DYD_PICTURE_BAND);
-  if (!(g->near > 0)) return;
-  around_path(c, g, g->near);
-  dyd_picture_fill(c, INSIDE);
-}
-
-static void nearest_circles(dyd_canvas *c, const nearest_drawing *g) {
-  around_path(c, g, g->far);
-  dyd_picture_stroke(c, 0x222222, 1.5, 0, 0);
-  if (!(g->near > 0)) return;
-  around_path(c, g, g->near);
-  dyd_picture_stroke(c, 0x222222, 1.5, 4, 2.5);
+/* kind: true for the inner one, where there is one. */
+static void around_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  const nearest_drawing *g = p->what;
+  if (g->count && (!l->kind || g->near > 0)) around_path(p->canvas, g, l->kind ? g->near : g->far);
 }
 
 /* Calls for every site that is drawn, possibly nearest ones last (first: the other way round). */
-typedef void (*nearest_visit)(dyd_canvas *c, nearest_drawing *g, dyd_numbers *l, const double box[4], size_t i,
-                              bool found);
+typedef void (*nearest_visit)(dyd_picture *p, const dyd_picture_layer *l, const double box[4], size_t i, bool found);
 
-static void nearest_each(dyd_canvas *c, nearest_drawing *g, dyd_numbers *l, bool first, nearest_visit visit) {
+static void nearest_each(dyd_picture *p, const dyd_picture_layer *l, bool first, nearest_visit visit) {
+  const nearest_drawing *g = p->what;
   const dyd_index_list *list = g->answer->found; /* ascending */
   for (int pass = 0; pass < 2; pass++)
     for (size_t i = 0, at = 0; i < dyd_sites_count(g->sites); i++) {
@@ -535,92 +520,117 @@ static void nearest_each(dyd_canvas *c, nearest_drawing *g, dyd_numbers *l, bool
       bool found = at < list->count && list->item[at] == i;
       if (dyd_delaunay_alias(g->pd, (uint32_t)i) != i || found != (first ? !pass : pass)) continue;
       dyd_sites_get_d(b, g->sites, i);
-      if (dyd_view_sees(&g->view, b)) visit(c, g, l, b, i, found);
+      if (dyd_view_sees(&g->view, b)) visit(p, l, b, i, found);
     }
 }
 
-static void nearest_mark_site(dyd_canvas *c, nearest_drawing *g, dyd_numbers *l, const double box[4], size_t i,
-                              bool found) {
-  dyd_picture_marked(c, &g->view, box, g->engine, i, !found ? NOT : g->answer->sure ? CURVE : POSSIBLE);
-  g->others = g->others || !found;
-  if (l->taken) dyd_numbers_keep_off(l, box);
+static void nearest_mark_site(dyd_picture *p, const dyd_picture_layer *l, const double box[4], size_t i, bool found) {
+  nearest_drawing *g = p->what;
+  dyd_picture_marked(p->canvas, p->view, box, g->engine, i);
+  dyd_picture_paint(p, l + (!found ? NOT : g->answer->sure ? SURE : POSSIBLE));
+  if (g->labels.taken) dyd_numbers_keep_off(&g->labels, box);
 }
 
-static void nearest_number(dyd_canvas *c, nearest_drawing *g, dyd_numbers *l, const double box[4], size_t i,
-                           bool found) {
-  dyd_numbers_put(l, c, box, found ? 18 : 14, g->engine, i);
+static void nearest_sites_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  nearest_drawing *g = p->what;
+  dyd_numbers_clear(&g->labels);
+  g->labels = (dyd_numbers){0};
+  if (p->view->apart >= 28) dyd_numbers_init(&g->labels, p->view);
+  nearest_each(p, l, false, nearest_mark_site);
 }
 
-static void draw_ways(dyd_canvas *c, const nearest_drawing *g) {
-  double place[2], site[2];
-  dyd_view_middle(place, &g->view, g->place);
+static void nearest_number(dyd_picture *p, const dyd_picture_layer *l, const double box[4], size_t i, bool found) {
+  nearest_drawing *g = p->what;
+  (void)l;
+  dyd_numbers_put(&g->labels, p->canvas, box, found ? 18 : 14, g->engine, i);
+}
+
+static void nearest_numbers_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  nearest_drawing *g = p->what;
+  if (!g->labels.taken) return;
+  dyd_numbers_keep_off(&g->labels, g->place);
+  nearest_each(p, l, true, nearest_number);
+}
+
+/* Full ones are of the layer behind l. */
+static void ways_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  const nearest_drawing *g = p->what;
+  double z[2][2];
+  dyd_view_middle(z[0], p->view, g->place);
   for (size_t k = 0; k < g->answer->found->count; k++) {
     double b[4];
     dyd_sites_get_d(b, g->sites, g->answer->found->item[k]);
-    dyd_view_middle(site, &g->view, b);
-    dyd_canvas_move(c, place[0], place[1]);
-    dyd_canvas_line(c, site[0], site[1]);
-    dyd_picture_stroke(c, 0x222222, 1, g->answer->sure ? 0 : 4, g->answer->sure ? 0 : 4);
+    dyd_view_middle(z[1], p->view, b);
+    dyd_canvas_segment(p->canvas, z);
+    dyd_picture_paint(p, l + g->answer->sure);
   }
 }
 
-/* A cross; around it the rectangle, where that can be seen. */
-static void draw_place(dyd_canvas *c, const nearest_drawing *g) {
-  const dyd_view *v = &g->view;
-  double x0 = dyd_view_x(v, g->place[0]), x1 = dyd_view_x(v, g->place[1]), y0 = dyd_view_y(v, g->place[3]),
-         y1 = dyd_view_y(v, g->place[2]), x = x0 / 2 + x1 / 2, y = y0 / 2 + y1 / 2;
-  if (fmax(x1 - x0, y1 - y0) > 4) {
-    dyd_canvas_box(c, x0, y0, x1 - x0, y1 - y0);
-    dyd_picture_stroke(c, 0, 1.5, 1, 2);
-  }
-  for (int halo = 1; halo >= 0; halo--) {
-    for (int k = -1; k <= 1; k += 2) {
-      dyd_canvas_move(c, x - 8, y - 8 * k);
-      dyd_canvas_line(c, x + 8, y + 8 * k);
-    }
-    if (!halo) dyd_canvas_name(c, "place", "the place asked about");
-    dyd_picture_stroke(c, halo ? 0xffffff : 0, halo ? 5 : 2.5, 0, 0);
-  }
+/* The rectangle of the place, where that can be seen. */
+static void place_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  const nearest_drawing *g = p->what;
+  double wide = dyd_view_x(p->view, g->place[1]) - dyd_view_x(p->view, g->place[0]);
+  double y = dyd_view_y(p->view, g->place[3]), high = dyd_view_y(p->view, g->place[2]) - y;
+  (void)l;
+  if (fmax(wide, high) > 4) dyd_canvas_box(p->canvas, dyd_view_x(p->view, g->place[0]), y, wide, high);
 }
 
-static void nearest_legend(dyd_canvas *c, void *context) {
-  const nearest_drawing *g = context;
+/* kind: true for the cross, false for its halo. */
+static void cross_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  const nearest_drawing *g = p->what;
+  const double *b = g->place;
+  const double x = dyd_view_x(p->view, b[0]) / 2 + dyd_view_x(p->view, b[1]) / 2;
+  const double y = dyd_view_y(p->view, b[3]) / 2 + dyd_view_y(p->view, b[2]) / 2;
+  for (int k = -1; k <= 1; k += 2)
+    dyd_canvas_segment(p->canvas, (double[2][2]){{x - 8, y - 8 * k}, {x + 8, y + 8 * k}});
+  if (l->kind) dyd_canvas_name(p->canvas, "place", l->text);
+}
+
+static void found_entry(dyd_legend *legend, const dyd_picture *p, const dyd_picture_layer *l) {
+  const dyd_nearest_answer *answer = ((const nearest_drawing *)p->what)->answer;
+  if (answer->found->count && answer->sure == (l->kind == SURE)) dyd_legend_put(legend, l, l->text);
+}
+
+static void far_entry(dyd_legend *legend, const dyd_picture *p, const dyd_picture_layer *l) {
+  const nearest_drawing *g = p->what;
+  if (g->count && g->near < g->far) dyd_legend_put(legend, l, l->text);
+}
+
+static void nearest_notes(dyd_legend *legend, const dyd_picture *p) {
+  const nearest_drawing *g = p->what;
   char text[240], lo[DYD_DECIMAL_SIZE], hi[DYD_DECIMAL_SIZE];
-  dyd_legend l;
-  dyd_legend_begin(&l, c, &g->view);
-  if (g->answer->found->count)
-    dyd_legend_patch(&l, g->answer->sure ? CURVE : POSSIBLE,
-                     g->answer->sure ? "certainly nearest to \303\227" : "possibly nearest to \303\227");
-  if (g->others) dyd_legend_patch(&l, NOT, "certainly not nearest");
-  if (g->count && g->near > 0) dyd_legend_patch(&l, INSIDE, "certainly free of points");
-  if (g->count && g->near < g->far) dyd_legend_patch(&l, DYD_PICTURE_BAND, "the nearest is in here");
-  if (g->count == 0) {
-    dyd_legend_text(&l, "there are no points");
-    return;
-  }
   dyd_decimal_directed(lo, g->near, 6, DYD_DOWN);
   dyd_decimal_directed(hi, g->far, 6, DYD_UP);
-  if (g->answer->sure)
+  if (g->count == 0)
+    snprintf(text, sizeof text, "there are no points");
+  else if (g->answer->sure)
     snprintf(text, sizeof text, "%zu points, number %zu is certainly nearest, about %s away (at most %s)", g->count,
              dyd_engine_row(g->engine, g->answer->found->item[0]), lo, hi);
   else
     snprintf(text, sizeof text, "%zu points, %zu possibly nearest, outcome %s; the nearest is about %s to %s away",
              g->count, g->answer->found->count, dyd_outcome_text(g->answer->outcome), lo, hi);
-  dyd_legend_text(&l, text);
+  dyd_legend_text(legend, text);
 }
 
-static void nearest_inside(dyd_canvas *c, void *context) {
-  nearest_drawing *g = context;
-  DYD_SCOPED(dyd_numbers) labels = {0};
-  bool numbers = g->view.apart >= 28 && dyd_numbers_init(&labels, &g->view);
-  if (g->count) nearest_areas(c, g);
-  nearest_each(c, g, &labels, false, nearest_mark_site);
-  if (g->count) nearest_circles(c, g);
-  draw_ways(c, g);
-  draw_place(c, g);
-  if (numbers) dyd_numbers_keep_off(&labels, g->place);
-  if (numbers) nearest_each(c, g, &labels, true, nearest_number);
-}
+#define UNLISTED(walk, kind, style, text)                                                                              \
+  { walk, kind, style, DYD_KEY_NONE, 0, text, NULL }
+
+static const dyd_picture_layer nearest_rows[] = {
+    {around_walk, false, DYD_STYLE_FILL(DYD_RGB_BAND), DYD_KEY_PATCH, 4, "the nearest is in here", far_entry},
+    {around_walk, true, DYD_STYLE_FILL(INSIDE), DYD_KEY_PATCH, 3, "certainly free of points", NULL},
+    {nearest_sites_walk, NOT, CALLED(WHITE), DYD_KEY_PATCH, 2, "certainly not nearest", NULL},
+    {NULL, SURE, CALLED(CURVE), DYD_KEY_PATCH, 1, "certainly nearest to \303\227", found_entry},
+    {NULL, POSSIBLE, CALLED(0xd55e00), DYD_KEY_PATCH, 1, "possibly nearest to \303\227", found_entry},
+    UNLISTED(around_walk, false, DYD_STYLE_PEN(0x222222, 1.5, 0, 0), "bound of where the nearest is"),
+    UNLISTED(around_walk, true, DYD_STYLE_PEN(0x222222, 1.5, 4, 2.5), "bound of the part free of points"),
+    UNLISTED(ways_walk, POSSIBLE, DYD_STYLE_PEN(0x222222, 1, 4, 4), "way to a point possibly nearest"),
+    UNLISTED(NULL, SURE, DYD_STYLE_PEN(0x222222, 1, 0, 0), "way to the nearest point"),
+    UNLISTED(place_walk, 0, DYD_STYLE_PEN(0, 1.5, 1, 2), "the rectangle of the place"),
+    UNLISTED(cross_walk, false, DYD_STYLE_PEN(0xffffff, 5, 0, 0), "halo of the cross"),
+    UNLISTED(cross_walk, true, DYD_STYLE_PEN(0, 2.5, 0, 0), "the place asked about"),
+    UNLISTED(nearest_numbers_walk, 0, DYD_STYLE_FILL(0), "numbers of points")};
+
+const dyd_picture_table dyd_nearest_layers = DYD_PICTURE_TABLE(nearest_rows, nearest_notes);
 
 dyd_status dyd_nearest_picture(const dyd_output *o) {
   const dyd_nearest_output *n = o->what;
@@ -628,5 +638,8 @@ dyd_status dyd_nearest_picture(const dyd_output *o) {
   dyd_rect_get_d(g.place, g.answer->at);
   find_distances(&g);
   dyd_status st = nearest_view(&g, o->err);
-  return st == DYD_OK ? dyd_view_write(o, &g.view, "nearest points", nearest_inside, nearest_legend, &g) : st;
+  if (st == DYD_OK)
+    st = dyd_picture_write(&(dyd_picture){&dyd_nearest_layers, "nearest points", .view = &g.view, .what = &g}, o);
+  dyd_numbers_clear(&g.labels);
+  return st;
 }

@@ -119,7 +119,7 @@ static bool is_halved(const dyd_density *under, size_t square) {
 }
 
 /* Squares side by side of one level are one box. */
-bool dyd_density_draw(dyd_canvas *c, const dyd_density *d, const dyd_density *under) {
+static bool density_draw(dyd_canvas *c, const dyd_density *d, const dyd_density *under) {
   bool drawn = false;
   if (!d->count) return false;
   const double *f = d->view->frame;
@@ -144,17 +144,7 @@ bool dyd_density_draw(dyd_canvas *c, const dyd_density *d, const dyd_density *un
   return drawn;
 }
 
-void dyd_density_legend(dyd_legend *l, const dyd_density *d, const char *what) {
-  bool seen[sizeof d->levels->level / sizeof *d->levels->level + 1] = {false}, first = true;
-  char text[120];
-  for (size_t k = 0; d->count && k < d->columns * d->rows; k++) seen[density_level(d, k)] = true;
-  for (size_t level = 1; d->count && level <= d->levels->count; level++) {
-    if (!seen[level]) continue;
-    snprintf(text, sizeof text, "%s%s", d->levels->level[level - 1].text, first ? what : "");
-    dyd_legend_patch(l, d->levels->level[level - 1].rgb, text);
-    first = false;
-  }
-}
+/* ---- entries ---- */
 
 #define SIZE 14.0
 #define ROW 22.0
@@ -234,33 +224,53 @@ static double entry_width(dyd_legend *l, double mark, const char *text) {
   return mark + 6 * l->canvas->text + dyd_canvas_width(l->canvas, SIZE, text);
 }
 
-void dyd_legend_line(dyd_legend *l, unsigned rgb, double on, double off, const char *text) {
+static void legend_line(dyd_legend *l, const dyd_style *s, const char *text) {
   legend_room(l, entry_width(l, 30 * l->canvas->text, text));
   double z[2][2] = {{l->x, l->y}, {l->x + 30 * l->canvas->text, l->y}};
-  dyd_picture_line(l->canvas, z, rgb, 2, on, off);
+  dyd_picture_line(l->canvas, z, s->stroke, 2, s->on, s->off);
   legend_words(l, 30 * l->canvas->text, text);
 }
 
-void dyd_legend_patch(dyd_legend *l, unsigned rgb, const char *text) {
+static void legend_patch(dyd_legend *l, unsigned rgb, const char *text) {
   legend_room(l, entry_width(l, 30 * l->canvas->text, text));
   dyd_canvas_box(l->canvas, l->x, l->y - 7 * l->canvas->text, 30 * l->canvas->text, 14 * l->canvas->text);
   dyd_picture_shape(l->canvas, rgb, 1, 0x555555, 0.6);
   legend_words(l, 30 * l->canvas->text, text);
 }
 
-void dyd_legend_dot(dyd_legend *l, unsigned fill, unsigned edge, const char *text) {
+static void legend_dot(dyd_legend *l, const dyd_style *s, const char *text) {
   legend_room(l, entry_width(l, 8 * l->canvas->text, text));
-  dyd_picture_dot(l->canvas, l->x + 4 * l->canvas->text, l->y, 3.5 * l->canvas->text, fill, edge);
+  dyd_canvas_circle(l->canvas, l->x + 4 * l->canvas->text, l->y, 3.5 * l->canvas->text);
+  dyd_picture_shape(l->canvas, s->fill, 1, s->stroke == DYD_NO_COLOUR ? s->fill : s->stroke, 1.2);
   legend_words(l, 8 * l->canvas->text, text);
 }
 
-void dyd_legend_marks(dyd_legend *l, const dyd_site_marks *m, unsigned rgb) {
-  char text[80];
-  const char *shape = l->view->discs ? "disc" : "rectangle";
-  snprintf(text, sizeof text, "%s of a point", shape);
-  if (m->drawn[DYD_MARK_RECTANGLE]) dyd_legend_patch(l, rgb, text);
-  snprintf(text, sizeof text, l->view->dots ? "point, or the middle of its %s" : "point, or a %s so small", shape);
-  if (m->drawn[DYD_MARK_DOT]) dyd_legend_dot(l, 0x222222, 0x222222, text);
+void dyd_legend_put(dyd_legend *legend, const dyd_picture_layer *l, const char *text) {
+  if (l->key == DYD_KEY_LINE) legend_line(legend, &l->style, text);
+  if (l->key == DYD_KEY_PATCH) legend_patch(legend, l->style.patch, text);
+  if (l->key == DYD_KEY_DOT) legend_dot(legend, &l->style, text);
+}
+
+/* Squares of legal pairs that are drawn, too, are shared by both. */
+void dyd_squares_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  const dyd_density *d = p->pairs->dense;
+  bool any = density_draw(p->canvas, &d[l->kind], l->kind == DYD_KIND_LEGAL ? NULL : &d[DYD_KIND_LEGAL]);
+  if (any && l->kind != DYD_KIND_OPEN) p->pairs->full = true;
+}
+
+/* An entry for each level; behind the first how many pairs are counted. */
+void dyd_squares_entry(dyd_legend *legend, const dyd_picture *p, const dyd_picture_layer *l) {
+  const dyd_density *d = &p->pairs->dense[l->kind];
+  bool seen[sizeof d->levels->level / sizeof *d->levels->level + 1] = {false}, first = true;
+  char text[120], of[100];
+  snprintf(of, sizeof of, " of %zu %s pairs across a square", p->pairs->shown[l->kind], l->text);
+  for (size_t k = 0; d->count && k < d->columns * d->rows; k++) seen[density_level(d, k)] = true;
+  for (size_t level = 1; d->count && level <= d->levels->count; level++) {
+    if (!seen[level]) continue;
+    snprintf(text, sizeof text, "%s%s", d->levels->level[level - 1].text, first ? of : "");
+    legend_patch(legend, d->levels->level[level - 1].rgb, text);
+    first = false;
+  }
 }
 
 void dyd_points_text(char *out, size_t size, size_t inside, size_t count, bool window) {
@@ -324,7 +334,7 @@ static double legend_select(double *x, size_t n, size_t k) {
 }
 
 /* The middles of the sites seen, x first, then y, of room for all: how many. */
-static size_t crowd_middles(double *x, double *y, const dyd_view *v, const dyd_site_marks *m) {
+static size_t crowd_middles(double *x, double *y, const dyd_view *v, const dyd_sites_shown *m) {
   size_t count = 0;
   for (size_t i = 0; i < m->count; i++) {
     double b[4];
@@ -349,7 +359,7 @@ static bool crowd_side(char text[2][48], double side[2], double *each, size_t n)
   return true;
 }
 
-void dyd_legend_crowd(dyd_legend *l, const dyd_site_marks *m) {
+void dyd_legend_crowd(dyd_legend *l, const dyd_sites_shown *m) {
   const dyd_view *v = l->view;
   size_t inside = 0, seen = 0;
   double box[4], *each = malloc((m->count + 1) * 2 * sizeof *each);

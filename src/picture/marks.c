@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Sites in a view, with their numbers or identifiers where there is room.
+/* Sites in a view, with their numbers or identifiers where there is room; pairs of them, as lines or as squares.
  *
  * For numbers the page is divided into small squares; a drawn mark takes the squares that it meets, and a number is
  * written at the first of eight places around its site whose squares are all free. */
@@ -48,37 +48,35 @@ static bool is_dot(const dyd_view *v, const double box[4]) {
   return v->dots || fmax(box[1] - box[0], box[3] - box[2]) * v->scale < 2 * v->dot;
 }
 
-static dyd_site_mark picture_site(dyd_canvas *c, const dyd_view *v, const double box[4], const dyd_engine *e,
-                                  size_t site, unsigned rgb) {
+/* A dot, of the layer behind l, or a rectangle. */
+static void draw_site(dyd_picture *p, const dyd_picture_layer *l, const double box[4], size_t site, unsigned rgb) {
+  const dyd_view *v = p->view;
   double x0 = dyd_view_x(v, box[0]), x1 = dyd_view_x(v, box[1]), y0 = dyd_view_y(v, box[3]), y1 = dyd_view_y(v, box[2]);
   const double *f = v->frame;
-  if (!dyd_view_sees(v, box)) return DYD_MARK_NONE;
-  name_site(c, box, e, site);
+  name_site(p->canvas, box, p->sites->engine, site);
   if (is_dot(v, box)) {
-    dyd_canvas_circle(c, x0 / 2 + x1 / 2, y0 / 2 + y1 / 2, v->dot);
-    dyd_picture_fill(c, 0x222222);
-    return DYD_MARK_DOT;
+    dyd_canvas_circle(p->canvas, x0 / 2 + x1 / 2, y0 / 2 + y1 / 2, v->dot);
+    dyd_picture_paint(p, l + 1);
+    return;
   }
   /* Lengths far outside do not fit the numbers of a page. */
   if (v->discs && x1 - x0 < LARGEST_DISC) {
-    dyd_canvas_circle(c, x0 / 2 + x1 / 2, y0 / 2 + y1 / 2, (x1 - x0) / 2);
+    dyd_canvas_circle(p->canvas, x0 / 2 + x1 / 2, y0 / 2 + y1 / 2, (x1 - x0) / 2);
   } else {
     x0 = fmax(x0, f[0] - 60), x1 = fmin(x1, f[1] + 60), y0 = fmax(y0, f[2] - 60), y1 = fmin(y1, f[3] + 60);
     double least = fmax(v->line, 1);
-    dyd_canvas_box(c, x0, y0, fmax(x1 - x0, least), fmax(y1 - y0, least));
+    dyd_canvas_box(p->canvas, x0, y0, fmax(x1 - x0, least), fmax(y1 - y0, least));
   }
-  dyd_picture_shape(c, rgb, 0.55, (rgb >> 1 & 0x7f7f7f) + (rgb >> 4 & 0x0f0f0f), fmax(v->line * 0.7, 0.5));
-  return DYD_MARK_RECTANGLE;
+  dyd_picture_shape(p->canvas, rgb, 0.55, (rgb >> 1 & 0x7f7f7f) + (rgb >> 4 & 0x0f0f0f), fmax(v->line * 0.7, 0.5));
+  dyd_picture_seen(p, l);
 }
 
-void dyd_picture_marked(dyd_canvas *c, const dyd_view *v, const double box[4], const dyd_engine *e, size_t site,
-                        unsigned rgb) {
+void dyd_picture_marked(dyd_canvas *c, const dyd_view *v, const double box[4], const dyd_engine *e, size_t site) {
   double w = fmax((box[1] - box[0]) * v->scale, 7), h = fmax((box[3] - box[2]) * v->scale, 7);
   double z[2];
   dyd_view_middle(z, v, box);
   name_site(c, box, e, site);
   dyd_canvas_box(c, z[0] - w / 2, z[1] - h / 2, w, h);
-  dyd_picture_shape(c, rgb, 1, 0x222222, 1.5);
 }
 
 /* ---- numbers ---- */
@@ -166,6 +164,10 @@ void dyd_numbers_put(dyd_numbers *l, dyd_canvas *c, const double box[4], double 
 
 /* ---- all sites ---- */
 
+int dyd_plan_quarter(const dyd_plan_shown *plan, size_t k) {
+  return (int)(DYD_QUARTERS * k / plan->rows);
+}
+
 static bool plane_site_box(double out[4], const void *context, size_t i) {
   const dyd_delaunay *pd = context;
   if (dyd_delaunay_alias(pd, (uint32_t)i) != i) return false;
@@ -173,13 +175,13 @@ static bool plane_site_box(double out[4], const void *context, size_t i) {
   return dyd_box_is_finite(out);
 }
 
-dyd_site_marks dyd_site_marks_of(const dyd_delaunay *pd, const dyd_engine *e, unsigned rgb) {
-  return (dyd_site_marks){
-      .engine = e, .count = dyd_sites_count(dyd_delaunay_sites(pd)), .box = plane_site_box, .context = pd, .rgb = rgb};
+dyd_sites_shown dyd_sites_shown_of(const dyd_delaunay *pd, const dyd_engine *e) {
+  return (dyd_sites_shown){
+      .engine = e, .count = dyd_sites_count(dyd_delaunay_sites(pd)), .box = plane_site_box, .context = pd};
 }
 
 /* Returns true if the squares drawn instead of the mark cover all of it. */
-static bool is_mark_covered(const dyd_site_marks *m, const dyd_view *v, const double box[4]) {
+static bool is_mark_covered(const dyd_sites_shown *m, const dyd_view *v, const double box[4]) {
   double z[4];
   if (!m->under) return false;
   page_box(z, v, box, v->dot);
@@ -187,16 +189,22 @@ static bool is_mark_covered(const dyd_site_marks *m, const dyd_view *v, const do
 }
 
 /* Points of a plan are marked, however small they are. */
-static void draw_mark(dyd_site_marks *m, dyd_canvas *c, const dyd_view *v, const double box[4], size_t i) {
-  const unsigned rgb = m->plan ? m->plan->rgb[i] : m->rgb;
-  if (m->plan && m->plan->rank[i] && is_dot(v, box) && dyd_view_sees(v, box))
-    dyd_picture_marked(c, v, box, m->engine, i, rgb);
-  else
-    m->drawn[picture_site(c, v, box, m->engine, i, rgb)] = true;
+static void draw_mark(dyd_picture *p, const dyd_picture_layer *l, const double box[4], size_t i) {
+  static const unsigned of_quarter[DYD_QUARTERS] = {DYD_RGB_PLAN_1, DYD_RGB_PLAN_2, DYD_RGB_PLAN_3, DYD_RGB_PLAN_4};
+  const dyd_sites_shown *m = p->sites;
+  const size_t rank = m->plan ? m->plan->rank[i] : 0;
+  const unsigned rgb = rank ? of_quarter[dyd_plan_quarter(m->plan, rank - 1)] : l->style.fill;
+  if (!dyd_view_sees(p->view, box)) return;
+  if (!rank || !is_dot(p->view, box)) {
+    draw_site(p, l, box, i, rgb);
+    return;
+  }
+  dyd_picture_marked(p->canvas, p->view, box, m->engine, i);
+  dyd_picture_shape(p->canvas, rgb, 1, 0x222222, 1.5);
 }
 
 /* "1: T16": ranks and points, where there is room. */
-static void draw_ranks(const dyd_site_marks *m, dyd_canvas *c, dyd_numbers *labels) {
+static void draw_ranks(const dyd_sites_shown *m, dyd_canvas *c, dyd_numbers *labels) {
   for (size_t k = 0; k < m->plan->rows; k++) {
     char spare[DYD_LABEL_SIZE], text[DYD_LABEL_SIZE + 32];
     double box[4];
@@ -206,17 +214,54 @@ static void draw_ranks(const dyd_site_marks *m, dyd_canvas *c, dyd_numbers *labe
   }
 }
 
-void dyd_site_marks_draw(dyd_site_marks *m, dyd_canvas *c, const dyd_view *v) {
+void dyd_sites_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  const dyd_sites_shown *m = p->sites;
   DYD_SCOPED(dyd_numbers) labels = {0};
-  bool numbers = (m->plan || v->apart >= ROOMY) && dyd_numbers_init(&labels, v);
+  bool numbers = (m->plan || p->view->apart >= ROOMY) && dyd_numbers_init(&labels, p->view);
   for (int pass = 0; pass < (numbers && !m->plan ? 2 : 1); pass++)
     for (size_t i = 0; i < m->count; i++) {
       double b[4];
       if (!m->box(b, m->context, i)) continue;
-      if (is_mark_covered(m, v, b)) continue;
-      if (!pass) draw_mark(m, c, v, b, i);
+      if (is_mark_covered(m, p->view, b)) continue;
+      if (!pass) draw_mark(p, l, b, i);
       if (!pass && numbers && (!m->plan || m->plan->rank[i])) dyd_numbers_keep_off(&labels, b);
-      if (pass) dyd_numbers_put(&labels, c, b, 13, m->engine, i);
+      if (pass) dyd_numbers_put(&labels, p->canvas, b, 13, m->engine, i);
     }
-  if (numbers && m->plan) draw_ranks(m, c, &labels);
+  if (numbers && m->plan) draw_ranks(m, p->canvas, &labels);
+}
+
+void dyd_sites_entry(dyd_legend *legend, const dyd_picture *p, const dyd_picture_layer *l) {
+  char text[80];
+  const char *shape = p->view->discs ? "disc" : "rectangle";
+  if (!dyd_picture_drawn(p, l)) return;
+  if (l->key == DYD_KEY_PATCH)
+    snprintf(text, sizeof text, "%s %s", shape, l->text);
+  else
+    snprintf(text, sizeof text, p->view->dots ? "%s, or the middle of its %s" : "%s, or a %s so small", l->text, shape);
+  dyd_legend_put(legend, l, text);
+}
+
+/* ---- pairs ---- */
+
+int dyd_pairs_kind(const dyd_picture *p, size_t k) {
+  const dyd_pair_status status = p->pairs->list->item[k].status;
+  if (status != DYD_LEGAL && status != DYD_TIE) return p->pairs->crowded ? -1 : DYD_KIND_OPEN;
+  return status == DYD_LEGAL ? DYD_KIND_LEGAL : DYD_KIND_TIE;
+}
+
+void dyd_pairs_name(dyd_picture *p, const dyd_picture_layer *l, size_t k) {
+  const dyd_pair *pair = &p->pairs->list->item[k];
+  dyd_picture_name_pair(p->canvas, p->pairs->engine, pair->i, pair->j, l->text);
+}
+
+void dyd_pairs_settle(dyd_pairs_shown *pairs) {
+  pairs->crowded = dyd_density_is_crowded(&pairs->dense[DYD_KIND_OPEN]);
+  if (!pairs->crowded) dyd_density_clear(&pairs->dense[DYD_KIND_OPEN]);
+}
+
+void dyd_pairs_entry(dyd_legend *legend, const dyd_picture *p, const dyd_picture_layer *l) {
+  char text[80];
+  if (!p->pairs->shown[l->kind] || (p->pairs->crowded && l->kind == DYD_KIND_OPEN)) return;
+  snprintf(text, sizeof text, "%s: %zu", l->text, p->pairs->shown[l->kind]);
+  dyd_legend_put(legend, l, text);
 }

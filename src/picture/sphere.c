@@ -14,130 +14,88 @@
 
 /* ---- plans ---- */
 
-/* Classes of pairs: decided by the first quarter of the rows of a plan, and so on; not by it; legal already. */
-enum { QUARTERS = 4, LEFT = QUARTERS, LEGAL, CLASSES };
+/* Kinds of pairs: decided by the first quarter of the rows of a plan, and so on; not by it; legal already. */
+enum { LEFT = DYD_QUARTERS, LEGAL };
 
-/* A plan in a picture. shown: pairs drawn of each class. */
-typedef struct plan_dress {
-  const dyd_survey *plan;
-  const dyd_survey_pair *pair;
-  size_t pairs, shown[CLASSES];
-  dyd_plan_marks marks;
-} plan_dress;
-
-/* By quarters of the ranks, then pairs that stay undecided, then decided ones; distinct for all kinds of sight, and in
- * grey. */
-static const struct {
-  unsigned rgb;
-  double on, off, width;
-} dress[CLASSES] = {{0xd55e00, 0, 0, 1.8}, {0xe69f00, 7, 2, 1.6},   {0x56b4e9, 3, 2, 1.6},
-                    {0x004c80, 1, 2, 1.6}, {0x333333, 0.2, 2.2, 1}, {0xc8c8c8, 0, 0, 0.7}};
-
-/* The quarter of row k, from 0. */
-static int quarter_of(const plan_dress *d, size_t k) {
-  return (int)(QUARTERS * k / d->marks.rows);
-}
-
-static dyd_status plan_dress_init(plan_dress *d, const dyd_survey *plan, size_t sites) {
-  *d = (plan_dress){.plan = plan};
-  if (!DYD_ZEROED(d->marks.rank, sites + 1) || !DYD_NEW(d->marks.rgb, sites)) return DYD_E_NOMEM;
-  d->marks.rows = dyd_survey_rows(&d->marks.row, plan);
-  d->pairs = dyd_survey_pairs(&d->pair, plan);
-  for (size_t i = 0; i < sites; i++) d->marks.rgb[i] = 0xd8d8d8;
-  for (size_t k = 0; k < d->marks.rows; k++) {
-    d->marks.rank[d->marks.row[k].site] = k + 1;
-    d->marks.rgb[d->marks.row[k].site] = dress[quarter_of(d, k)].rgb;
-  }
+static dyd_status plan_shown_init(dyd_plan_shown *d, const dyd_result *r, size_t sites) {
+  *d = (dyd_plan_shown){.r = r};
+  if (!DYD_ZEROED(d->rank, sites + 1)) return DYD_E_NOMEM;
+  d->rows = dyd_survey_rows(&d->row, r->survey);
+  d->pairs = dyd_survey_pairs(&d->pair, r->survey);
+  for (size_t k = 0; k < d->rows; k++) d->rank[d->row[k].site] = k + 1;
   return DYD_OK;
 }
 
-static void plan_dress_clear(plan_dress *d) {
-  dyd_free_all(d->marks.rank, d->marks.rgb);
-}
-
-static const dyd_survey_pair *plan_pair(const plan_dress *d, const dyd_pair *p) {
+static const dyd_survey_pair *plan_pair(const dyd_plan_shown *d, const dyd_pair *p) {
   return dyd_find_two(p, d->pair, d->pairs, sizeof *d->pair);
 }
 
-static int plan_class(const plan_dress *d, const dyd_pair *p) {
-  if (p->status == DYD_LEGAL) return LEGAL;
-  const dyd_survey_pair *found = plan_pair(d, p);
-  return found && found->row < d->marks.rows ? quarter_of(d, found->row) : LEFT;
+static int plan_kind(const dyd_picture *p, size_t k) {
+  const dyd_plan_shown *d = p->sites->plan;
+  const dyd_pair *pair = &d->r->pairs.item[k];
+  if (pair->status == DYD_LEGAL) return LEGAL;
+  const dyd_survey_pair *found = plan_pair(d, pair);
+  return found && found->row < d->rows ? dyd_plan_quarter(d, found->row) : LEFT;
 }
 
-/* Names and strokes the line of a pair of sites of e, which is the path. */
-static void plan_stroke(dyd_canvas *c, const plan_dress *d, const dyd_view *v, const dyd_engine *e, const dyd_pair *p) {
-  char text[80] = "legal";
-  const int class = plan_class(d, p);
-  if (class < QUARTERS)
-    snprintf(text, sizeof text, "decided by point %zu of the plan", plan_pair(d, p)->row + 1);
-  else if (class == LEFT)
-    snprintf(text, sizeof text, "not decided by the plan");
-  dyd_picture_name_pair(c, e, p->i, p->j, text);
-  dyd_picture_stroke(c, dress[class].rgb, v->line * dress[class].width, dress[class].on, dress[class].off);
+static bool plan_path(dyd_picture *p, size_t k) {
+  const dyd_result *r = p->sites->plan->r;
+  return dyd_picture_join(p, r, r->pairs.item[k].i, r->pairs.item[k].j);
+}
+
+static void plan_name(dyd_picture *p, const dyd_picture_layer *l, size_t k) {
+  const dyd_plan_shown *d = p->sites->plan;
+  const dyd_pair *pair = &d->r->pairs.item[k];
+  char text[80];
+  if (l->kind < DYD_QUARTERS)
+    snprintf(text, sizeof text, "decided by point %zu of the plan", plan_pair(d, pair)->row + 1);
+  else
+    snprintf(text, sizeof text, "%s", l->kind == LEGAL ? "legal" : l->text);
+  dyd_picture_name_pair(p->canvas, d->r->engine, pair->i, pair->j, text);
 }
 
 /* The ranks of a quarter: first to last; false: none. */
-static bool quarter_ranks(size_t *first, size_t *last, const plan_dress *d, int quarter) {
+static bool quarter_ranks(size_t *first, size_t *last, const dyd_plan_shown *d, int quarter) {
   *first = *last = 0;
-  for (size_t k = 0; k < d->marks.rows; k++)
-    if (quarter_of(d, k) == quarter) *first = *first ? *first : k + 1, *last = k + 1;
+  for (size_t k = 0; k < d->rows; k++)
+    if (dyd_plan_quarter(d, k) == quarter) *first = *first ? *first : k + 1, *last = k + 1;
   return *first;
 }
 
-static void plan_legend(dyd_legend *l, const plan_dress *d) {
-  const dyd_survey_result *of = dyd_survey_get(d->plan);
+static void quarter_entry(dyd_legend *legend, const dyd_picture *p, const dyd_picture_layer *l) {
   char text[160];
-  for (int k = 0; k < CLASSES; k++) {
-    size_t first = 0, last = 0;
-    if (k < QUARTERS ? !quarter_ranks(&first, &last, d, k) : !d->shown[k]) continue;
-    if (k == LEGAL)
-      snprintf(text, sizeof text, "legal already: %zu", d->shown[k]);
-    else if (k == LEFT)
-      snprintf(text, sizeof text, "not decided by the plan: %zu", d->shown[k]);
-    else if (first == last)
-      snprintf(text, sizeof text, "point %zu, decides %zu", first, d->shown[k]);
-    else
-      snprintf(text, sizeof text, "points %zu to %zu, decide %zu", first, last, d->shown[k]);
-    dyd_legend_line(l, dress[k].rgb, dress[k].on, dress[k].off, text);
-  }
-  snprintf(text, sizeof text, "labels: rank: point; %zu points to measure, %zu of %zu undecided pairs stay so%s",
-           d->marks.rows, of->left, of->open, of->cut ? "; the plan is not finished" : "");
-  dyd_legend_text(l, text);
+  size_t first, last, decided = dyd_picture_drawn(p, l);
+  if (!quarter_ranks(&first, &last, p->sites->plan, l->kind)) return;
+  if (first == last)
+    snprintf(text, sizeof text, "point %zu, decides %zu", first, decided);
+  else
+    snprintf(text, sizeof text, "points %zu to %zu, decide %zu", first, last, decided);
+  dyd_legend_put(legend, l, text);
+}
+
+static void counted_entry(dyd_legend *legend, const dyd_picture *p, const dyd_picture_layer *l) {
+  char text[160];
+  snprintf(text, sizeof text, "%s: %zu", l->text, dyd_picture_drawn(p, l));
+  if (dyd_picture_drawn(p, l)) dyd_legend_put(legend, l, text);
 }
 
 /* ---- spheres ---- */
-
-#define GRATICULE 0xd0d0d0
-#define RECTANGLE 0xf2c766
-enum { OPEN = 1 };
-
-static const struct {
-  dyd_pair_status status;
-  const char *name;
-  unsigned rgb;
-  double on, off;
-} kind[] = {{DYD_TIE, "tie", 0xcc79a7, 1.5, 1.5},
-            {DYD_INDETERMINATE, "indeterminate", DYD_PICTURE_BAND, 4, 2},
-            {DYD_LEGAL, "legal", 0x0072b2, 0, 0}};
 
 /* cells: of the diagram, NULL: edges are drawn. */
 typedef struct sphere_drawing {
   const dyd_result *r;
   const dyd_sphere_cells *cells;
-  double (*box)[4];              /* of places, whose middles are on the map */
-  size_t count, sites, shown[4]; /* sites, shown: places and edges in the frame */
-  double seam;                   /* the longitude of the left end of the map, of 360 degrees */
+  double (*box)[4];    /* of places, whose middles are on the map */
+  size_t count, sites; /* sites: places in the frame */
+  double seam;         /* the longitude of the left end of the map, of 360 degrees */
   dyd_view view;
-  dyd_site_marks marks;
-  plan_dress plan;  /* where r holds one */
-  dyd_density open; /* of indeterminate edges */
-  bool crowded;     /* it is drawn instead of them */
-  dyd_canvas *canvas;
+  dyd_sites_shown marks;
+  dyd_plan_shown plan; /* where r holds one */
+  dyd_pairs_shown pairs;
+  dyd_picture picture;
   /* The line at hand: where it is on the page; is it in the frame, and of an indeterminate edge? */
   double at[2];
   bool seen, is_open;
-  dyd_status failed;
 } sphere_drawing;
 
 /* ---- lines ---- */
@@ -147,18 +105,18 @@ typedef void (*arc_step)(sphere_drawing *d, bool begin, double x, double y);
 
 static void arc_draw(sphere_drawing *d, bool begin, double x, double y) {
   if (begin)
-    dyd_canvas_move(d->canvas, x, y);
+    dyd_canvas_move(d->picture.canvas, x, y);
   else
-    dyd_canvas_line(d->canvas, x, y);
+    dyd_canvas_line(d->picture.canvas, x, y);
 }
 
 /* Counts the part in the frame. */
 static void arc_count(sphere_drawing *d, bool begin, double x, double y) {
   double z[2][2] = {{d->at[0], d->at[1]}, {x, y}};
-  if (begin) dyd_density_begin(&d->open);
+  if (begin) dyd_density_begin(&d->pairs.dense[DYD_KIND_OPEN]);
   if (!begin && dyd_clip_segment(z, d->view.frame)) {
     d->seen = true;
-    if (d->is_open) dyd_density_add(&d->open, z);
+    if (d->is_open) dyd_density_add(&d->pairs.dense[DYD_KIND_OPEN], z);
   }
   d->at[0] = x, d->at[1] = y;
 }
@@ -185,18 +143,22 @@ static void side_follow(sphere_drawing *d, const dyd_side *side, bool whole, arc
     }
     arc_to(d, step, k == 0, p[k].lon, p[k].lat);
   }
-  if (st != DYD_OK) d->failed = st;
+  if (st != DYD_OK) d->picture.st = st;
 }
 
 static void arc_follow(sphere_drawing *d, const double *from, const double *to, arc_step step) {
   side_follow(d, &(dyd_side){.from = dyd_lon_lat_of(from), .to = dyd_lon_lat_of(to)}, false, step);
 }
 
-static void draw_graticule(sphere_drawing *d) {
+/* In the legend even where the map is too small for it. Plans of the plane have none. */
+static void graticule_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  sphere_drawing *d = p->what;
+  if (!d) return;
   const dyd_view *v = &d->view;
   const double left = v->left, right = left + v->width / v->scale, bottom = v->top - v->height / v->scale;
   double span = fmax(right - left, v->top - bottom);
   int digit, exponent;
+  dyd_picture_seen(p, l);
   if (!dyd_round_step(&digit, &exponent, span / 6)) return;
   double step = span > 180 ? 30 : digit * pow(10, exponent);
   if (step < 0x1p-40) return; /* 720 degrees have an ulp of 2^-43 */
@@ -208,42 +170,21 @@ static void draw_graticule(sphere_drawing *d) {
     arc_to(d, arc_draw, true, left, y);
     arc_to(d, arc_draw, false, right, y);
   }
-  dyd_picture_stroke(d->canvas, GRATICULE, 0.5, 0, 0);
 }
 
-static void draw_plan(sphere_drawing *d) {
-  for (int class = CLASSES; class --;)
-    for (size_t k = 0; k < d->r->pairs.count; k++) {
-      const dyd_pair *p = &d->r->pairs.item[k];
-      if (plan_class(&d->plan, p) != class) continue;
-      d->plan.shown[class]++;
-      arc_follow(d, d->box[p->i], d->box[p->j], arc_draw);
-      plan_stroke(d->canvas, &d->plan, &d->view, d->r->engine, p);
-    }
-}
-
-static void draw_pairs(sphere_drawing *d) {
-  const dyd_pair_list *l = &d->r->pairs;
-  const dyd_engine *places = dyd_sphere_places(d->r->sphere);
-  for (int k = 0; k < 3; k++) {
-    if (d->crowded && k == OPEN) continue;
-    for (size_t p = 0; p < l->count; p++) {
-      if (l->item[p].status != kind[k].status) continue;
-      arc_follow(d, d->box[l->item[p].i], d->box[l->item[p].j], arc_draw);
-      if (l->count > DYD_PICTURE_NAMES) continue;
-      dyd_picture_name_pair(d->canvas, places, l->item[p].i, l->item[p].j, kind[k].name);
-      dyd_picture_stroke(d->canvas, kind[k].rgb, d->view.line, kind[k].on, kind[k].off);
-    }
-    if (d->shown[kind[k].status] && l->count > DYD_PICTURE_NAMES)
-      dyd_picture_stroke(d->canvas, kind[k].rgb, d->view.line, kind[k].on, kind[k].off);
-  }
+static bool sphere_path(dyd_picture *p, size_t k) {
+  sphere_drawing *d = p->what;
+  arc_follow(d, d->box[d->r->pairs.item[k].i], d->box[d->r->pairs.item[k].j], arc_draw);
+  return true;
 }
 
 /* Sides between vertices that follow each other in a cell, each once; and the one of two halves. */
-static void draw_cells(sphere_drawing *d) {
+static void sides_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  sphere_drawing *d = p->what;
   const dyd_sphere_cells *g = d->cells;
   size_t drawn = 0;
   dyd_side side;
+  dyd_picture_seen(p, l);
   for (uint32_t i = 0; i < g->places; i++) {
     if (!drawn && dyd_sphere_cell_is_half(&side, g, d->r->sphere, i)) side_follow(d, &side, true, arc_draw), drawn++;
     for (size_t k = g->first[i]; k < g->first[i + 1]; k++) {
@@ -255,48 +196,71 @@ static void draw_cells(sphere_drawing *d) {
       drawn++;
     }
   }
-  if (drawn) dyd_picture_stroke(d->canvas, kind[2].rgb, d->view.line, 0, 0);
 }
 
-static void sphere_inside(dyd_canvas *c, void *context) {
-  sphere_drawing *d = context;
-  d->canvas = c;
-  if (d->crowded && !d->r->survey) dyd_density_draw(c, &d->open, NULL);
-  draw_graticule(d);
-  if (d->cells)
-    draw_cells(d);
-  else if (d->r->survey)
-    draw_plan(d);
-  else
-    draw_pairs(d);
-  dyd_site_marks_draw(&d->marks, c, &d->view);
-}
-
-static void sphere_legend(dyd_canvas *c, void *context) {
-  const sphere_drawing *d = context;
+static void sphere_notes(dyd_legend *legend, const dyd_picture *p) {
+  const sphere_drawing *d = p->what;
   char text[300], points[100];
-  dyd_legend l;
-  dyd_legend_begin(&l, c, &d->view);
-  if (d->r->survey) {
-    plan_legend(&l, &d->plan);
-    return;
-  }
-  for (int k = 2; k >= 0 && !d->cells; k--) {
-    if (!d->shown[kind[k].status] || (d->crowded && k == OPEN)) continue;
-    snprintf(text, sizeof text, "%s: %zu", kind[k].name, d->shown[kind[k].status]);
-    dyd_legend_line(&l, kind[k].rgb, kind[k].on, kind[k].off, text);
-  }
-  if (d->cells) dyd_legend_line(&l, kind[2].rgb, 0, 0, "side of a cell");
-  snprintf(text, sizeof text, " of %zu indeterminate pairs across a square", d->shown[DYD_INDETERMINATE]);
-  if (d->crowded) dyd_density_legend(&l, &d->open, text);
-  dyd_legend_marks(&l, &d->marks, RECTANGLE);
-  dyd_legend_line(&l, GRATICULE, 0, 0, "graticule, degrees");
   dyd_points_text(points, sizeof points, d->sites, d->count, d->r->window);
   snprintf(text, sizeof text, "%s on a sphere, outcome %s, %zu undecided faces; great circles on a plate carr\u00e9e",
            points, dyd_outcome_text(dyd_sphere_outcome(d->r->sphere)), dyd_sphere_faces(d->r->sphere));
-  dyd_legend_text(&l, text);
-  dyd_legend_crowd(&l, &d->marks);
+  dyd_legend_text(legend, text);
+  dyd_legend_crowd(legend, p->sites);
 }
+
+#define GRATICULE(key, place)                                                                                          \
+  { graticule_walk, 0, DYD_STYLE_PEN(0xd0d0d0, 0.5, 0, 0), key, place, "graticule, degrees", NULL }
+
+#define SITES(place) DYD_SITES_LAYERS(dyd_sites_walk, dyd_sites_entry, 0xf2c766, 0xf2c766, place)
+#define EDGES(kind, rgb, on, off, place, name)                                                                         \
+  { dyd_lines_walk, kind, DYD_STYLE_LINE(rgb, 1, on, off), DYD_KEY_LINE, place, name, dyd_pairs_entry }
+
+static const dyd_picture_layer sphere_rows[] = {{dyd_squares_walk, DYD_KIND_OPEN, DYD_STYLE_SQUARES(&dyd_density_all),
+                                                 DYD_KEY_SQUARES, 4, "indeterminate", dyd_squares_entry},
+                                                GRATICULE(DYD_KEY_LINE, 6),
+                                                EDGES(DYD_KIND_TIE, 0xcc79a7, 1.5, 1.5, 3, "tie"),
+                                                EDGES(DYD_KIND_OPEN, DYD_RGB_BAND, 4, 2, 2, "indeterminate"),
+                                                EDGES(DYD_KIND_LEGAL, DYD_RGB_LEGAL, 0, 0, 1, "legal"),
+                                                SITES(5)};
+
+static const dyd_picture_layer sphere_cells_rows[] = {
+    GRATICULE(DYD_KEY_LINE, 3),
+    {sides_walk, 0, DYD_STYLE_LINE(DYD_RGB_LEGAL, 1, 0, 0), DYD_KEY_LINE, 1, "side of a cell", NULL},
+    SITES(2)};
+
+const dyd_picture_table dyd_sphere_layers = DYD_PICTURE_TABLE(sphere_rows, sphere_notes),
+                        dyd_sphere_cells_layers = DYD_PICTURE_TABLE(sphere_cells_rows, sphere_notes);
+
+static void plan_picture_notes(dyd_legend *legend, const dyd_picture *p) {
+  const dyd_survey_result *of = dyd_survey_get(p->sites->plan->r->survey);
+  char text[160];
+  snprintf(text, sizeof text, "labels: rank: point; %zu points to measure, %zu of %zu undecided pairs stay so%s",
+           p->sites->plan->rows, of->left, of->open, of->cut ? "; the plan is not finished" : "");
+  dyd_legend_text(legend, text);
+  if (!p->what) dyd_legend_crowd(legend, p->sites);
+}
+
+/* Distinct for all kinds of sight, and in grey. Sites that are not in the plan are grey. */
+#define QUARTER(k, rgb, lines, on, off)                                                                                \
+  {                                                                                                                    \
+    dyd_lines_walk, k, DYD_STYLE_LINE(rgb, lines, on, off), DYD_KEY_LINE, k + 1, "a quarter of the plan",              \
+        quarter_entry                                                                                                  \
+  }
+
+static const dyd_picture_layer plan_rows[] = {
+    GRATICULE(DYD_KEY_NONE, 0),
+    {dyd_lines_walk, LEGAL, DYD_STYLE_LINE(DYD_RGB_DECIDED, 0.7, 0, 0), DYD_KEY_LINE, 6, "legal already",
+     counted_entry},
+    {dyd_lines_walk, LEFT, DYD_STYLE_LINE(0x333333, 1, 0.2, 2.2), DYD_KEY_LINE, 5, "not decided by the plan",
+     counted_entry},
+    QUARTER(3, DYD_RGB_PLAN_4, 1.6, 1, 2),
+    QUARTER(2, DYD_RGB_PLAN_3, 1.6, 3, 2),
+    QUARTER(1, DYD_RGB_PLAN_2, 1.6, 7, 2),
+    QUARTER(0, DYD_RGB_PLAN_1, 1.8, 0, 0),
+    {dyd_sites_walk, 0, DYD_STYLE_SITES(0xd8d8d8, 0), DYD_KEY_NONE, 0, "rectangle of a point", NULL},
+    {NULL, 1, DYD_SITES_DOTS, DYD_KEY_NONE, 0, "point", NULL}};
+
+const dyd_picture_table dyd_plan_layers = DYD_PICTURE_TABLE(plan_rows, plan_picture_notes);
 
 /* The usual length of an edge on the map, in degrees: of edges that begin in the box (NULL: of all). */
 static double sphere_spacing(const sphere_drawing *d, const double box[4]) {
@@ -348,17 +312,17 @@ static void find_surroundings(double all[4], const sphere_drawing *d) {
 }
 
 static dyd_status find_crowd(sphere_drawing *d) {
-  if (!dyd_density_init(&d->open, &d->view, &dyd_density_all)) return DYD_E_NOMEM;
+  if (!dyd_density_init(&d->pairs.dense[DYD_KIND_OPEN], &d->view, &dyd_density_all)) return DYD_E_NOMEM;
   for (size_t i = 0; i < d->count; i++) d->sites += dyd_view_sees(&d->view, d->box[i]);
   for (size_t p = 0; p < d->r->pairs.count && !d->cells; p++) {
     const dyd_pair *pair = &d->r->pairs.item[p];
     d->is_open = pair->status == DYD_INDETERMINATE;
     d->seen = false;
     arc_follow(d, d->box[pair->i], d->box[pair->j], arc_count);
-    d->shown[pair->status] += d->seen;
+    d->pairs.shown[dyd_pairs_kind(&d->picture, p)] += d->seen;
   }
-  d->crowded = dyd_density_is_crowded(&d->open);
-  return d->failed;
+  dyd_pairs_settle(&d->pairs);
+  return d->picture.st;
 }
 
 static dyd_status find_window(double all[4], sphere_drawing *d, dyd_error *err) {
@@ -386,74 +350,59 @@ static dyd_status sphere_see(sphere_drawing *d, dyd_error *err) {
   return st == DYD_OK ? find_crowd(d) : st;
 }
 
-static dyd_status sphere_draw(const dyd_output *o, const dyd_sphere_cells *cells, const char *title) {
-  sphere_drawing d = {.r = o->what, .cells = cells};
-  const dyd_engine *places = dyd_sphere_places(d.r->sphere);
+static dyd_status sphere_draw(const dyd_output *o, const dyd_picture_table *table, const dyd_sphere_cells *cells,
+                              const char *title) {
+  const dyd_result *r = o->what;
+  sphere_drawing d = {.r = r, .cells = cells};
+  const dyd_engine *places = dyd_sphere_places(r->sphere);
   d.count = dyd_engine_count(places);
-  d.marks =
-      (dyd_site_marks){.engine = places, .count = d.count, .box = sphere_site_box, .context = &d, .rgb = RECTANGLE};
+  d.marks = (dyd_sites_shown){.engine = places, .count = d.count, .box = sphere_site_box, .context = &d};
+  d.picture = (dyd_picture){table,
+                            title,
+                            .view = &d.view,
+                            .what = &d,
+                            .sites = &d.marks,
+                            .pairs = &d.pairs,
+                            .lines = {r->pairs.count, dyd_pairs_kind, sphere_path, dyd_pairs_name}};
+  d.pairs = (dyd_pairs_shown){.list = &r->pairs, .engine = places};
+  if (r->survey)
+    d.picture.lines.kind = plan_kind, d.picture.lines.name = plan_name, d.marks.plan = &d.plan;
+  else if (r->pairs.count > DYD_PICTURE_NAMES)
+    d.picture.lines.name = NULL;
   dyd_status st = sphere_see(&d, o->err);
-  if (d.r->survey && st == DYD_OK) st = plan_dress_init(&d.plan, d.r->survey, d.count);
-  if (d.r->survey) d.marks.plan = &d.plan.marks;
-  if (st == DYD_OK) st = dyd_view_write(o, &d.view, title, sphere_inside, sphere_legend, &d);
-  plan_dress_clear(&d.plan);
-  dyd_density_clear(&d.open);
+  if (r->survey && st == DYD_OK) st = plan_shown_init(&d.plan, r, d.count);
+  if (st == DYD_OK) st = dyd_picture_write(&d.picture, o);
+  free(d.plan.rank);
+  dyd_density_clear(&d.pairs.dense[DYD_KIND_OPEN]);
   free(d.box);
-  return st == DYD_OK ? d.failed : st;
+  return st;
 }
 
 dyd_status dyd_sphere_picture(const dyd_output *o) {
-  const bool plan = ((const dyd_result *)o->what)->survey;
-  return sphere_draw(o, NULL, plan ? "plan of measurements" : "partial Delaunay triangulation of a sphere");
+  if (((const dyd_result *)o->what)->survey) return sphere_draw(o, &dyd_plan_layers, NULL, "plan of measurements");
+  return sphere_draw(o, &dyd_sphere_layers, NULL, "partial Delaunay triangulation of a sphere");
 }
 
 dyd_status dyd_sphere_voronoi_picture(const dyd_output *o) {
   const dyd_result *r = o->what;
   DYD_SCOPED(dyd_sphere_cells) cells = {0};
   dyd_status st = dyd_sphere_cells_find(&cells, r->sphere, o->err);
-  return st == DYD_OK ? sphere_draw(o, &cells, "Voronoi diagram of a sphere") : st;
-}
-
-/* ---- plans of the plane ---- */
-
-typedef struct plane_drawing {
-  const dyd_result *r;
-  dyd_view view;
-  plan_dress dress;
-  dyd_site_marks marks;
-} plane_drawing;
-
-static void plan_inside(dyd_canvas *c, void *context) {
-  plane_drawing *g = context;
-  for (int class = CLASSES; class --;)
-    for (size_t k = 0; k < g->r->pairs.count; k++) {
-      const dyd_pair *p = &g->r->pairs.item[k];
-      double z[2][2];
-      if (plan_class(&g->dress, p) != class || !dyd_view_line(z, &g->view, g->r, p->i, p->j)) continue;
-      g->dress.shown[class]++;
-      dyd_canvas_move(c, z[0][0], z[0][1]);
-      dyd_canvas_line(c, z[1][0], z[1][1]);
-      plan_stroke(c, &g->dress, &g->view, g->r->engine, p);
-    }
-  dyd_site_marks_draw(&g->marks, c, &g->view);
-}
-
-static void plane_plan_legend(dyd_canvas *c, void *context) {
-  const plane_drawing *g = context;
-  dyd_legend l;
-  dyd_legend_begin(&l, c, &g->view);
-  plan_legend(&l, &g->dress);
-  dyd_legend_crowd(&l, &g->marks);
+  return st == DYD_OK ? sphere_draw(o, &dyd_sphere_cells_layers, &cells, "Voronoi diagram of a sphere") : st;
 }
 
 dyd_status dyd_plan_picture(const dyd_output *o) {
   const dyd_result *r = o->what;
   if (r->sphere) return dyd_sphere_picture(o);
-  plane_drawing g = {.r = r, .marks = dyd_site_marks_of(r->pd, r->engine, DYD_PICTURE_BAND)};
-  g.marks.plan = &g.dress.marks;
-  dyd_status st = plan_dress_init(&g.dress, r->survey, r->count);
-  if (st == DYD_OK) st = dyd_view_of(&g.view, o, &r->pairs);
-  if (st == DYD_OK) st = dyd_view_write(o, &g.view, "plan of measurements", plan_inside, plane_plan_legend, &g);
-  plan_dress_clear(&g.dress);
+  dyd_view view;
+  dyd_plan_shown plan;
+  dyd_sites_shown sites = dyd_sites_shown_of(r->pd, r->engine);
+  sites.plan = &plan;
+  dyd_status st = plan_shown_init(&plan, r, r->count);
+  if (st == DYD_OK) st = dyd_view_of(&view, o, &r->pairs);
+  if (st == DYD_OK)
+    st = dyd_picture_write(&(dyd_picture){&dyd_plan_layers, "plan of measurements", .view = &view, .sites = &sites,
+                                          .lines = {r->pairs.count, plan_kind, plan_path, plan_name}},
+                           o);
+  free(plan.rank);
   return st;
 }

@@ -17,7 +17,6 @@
 
 #define SIDE 1000.0 /* of the drawing */
 #define EDGE DYD_VIEW_EDGE
-#define FOOT 140.0 /* room of coordinates and legend */
 #define SIZE 12
 #define WIDEST 240.0 /* between ticks along x; along y there is more room for labels */
 #define HIGHEST 140.0
@@ -148,15 +147,6 @@ dyd_status dyd_view_of(dyd_view *v, const dyd_output *o, const dyd_pair_list *pa
   return st;
 }
 
-bool dyd_view_line(double z[2][2], const dyd_view *v, const dyd_result *r, uint32_t i, uint32_t j) {
-  double b[4];
-  for (int e = 0; e < 2; e++) {
-    dyd_sites_get_d(b, r->sites, e ? j : i);
-    dyd_view_middle(z[e], v, b);
-  }
-  return dyd_clip_segment(z, v->frame);
-}
-
 double dyd_view_x(const dyd_view *v, double x) {
   return (x - v->left) * v->scale + DYD_VIEW_LEFT;
 }
@@ -270,8 +260,7 @@ static void axis_along(dyd_canvas *c, const dyd_view *v, double low, double high
   }
 }
 
-/* Coordinates along the frame. */
-static void axes_draw(dyd_canvas *c, const dyd_view *v) {
+void dyd_view_axes(dyd_canvas *c, const dyd_view *v) {
   const double *f = v->frame;
   dyd_view_frame_path(c, v);
   dyd_picture_stroke(c, 0x222222, 1, 0, 0);
@@ -321,47 +310,4 @@ int dyd_clip_convex(double z[DYD_CLIP_MOST][2], int n, const double box[4]) {
     n = count;
   }
   return n;
-}
-
-/* ---- the page ---- */
-
-/* The page: the frame alone, or with coordinates and a legend as low as it gets. */
-static dyd_status page_of_view(dyd_page *page, double box[4], const dyd_output *o, const dyd_view *v,
-                               dyd_draw_fn inside, dyd_draw_fn legend, void *context) {
-  dyd_output nowhere = *o;
-  memcpy(box, v->frame, sizeof v->frame);
-  dyd_status st =
-      dyd_page_fit(page, o, o->style.bare ? box[1] - box[0] : v->width, o->style.bare ? 0 : DYD_VIEW_LEFT + EDGE);
-  if (st != DYD_OK || o->style.bare) return st;
-  box[0] = DYD_VIEW_LEFT * (1 - page->text);
-  box[1] = box[0] + v->width + (DYD_VIEW_LEFT + EDGE) * page->text;
-  box[2] = 0, box[3] = ceil(v->height + EDGE + FOOT);
-  if (page->scale == 1) box[1] = ceil(box[1]);
-  if (page->text == 1) return DYD_OK;
-  nowhere.format = DYD_FORMAT_CSV;
-  dyd_canvas *c = dyd_canvas_new(&nowhere, page, box, "");
-  if (c) {
-    inside(c, context); /* the legend explains the marks that were drawn */
-    legend(c, context);
-    box[3] = c->low + 10 * page->text;
-  }
-  return dyd_canvas_end(c, DYD_OK, o->err);
-}
-
-dyd_status dyd_view_write(const dyd_output *o, const dyd_view *v, const char *title, dyd_draw_fn inside,
-                          dyd_draw_fn legend, void *context) {
-  dyd_page page;
-  double box[4];
-  dyd_status st = page_of_view(&page, box, o, v, inside, legend, context);
-  dyd_canvas *c = st == DYD_OK ? dyd_canvas_new(o, &page, box, title) : NULL;
-  if (!c) return st == DYD_OK ? DYD_E_NOMEM : st;
-  dyd_view_frame_path(c, v);
-  dyd_canvas_clip(c);
-  inside(c, context);
-  dyd_canvas_unclip(c);
-  if (!o->style.bare) {
-    axes_draw(c, v);
-    legend(c, context);
-  }
-  return dyd_canvas_end(c, DYD_OK, o->err);
 }

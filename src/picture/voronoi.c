@@ -6,22 +6,17 @@
 #include "picture/picture.h"
 #include <math.h>
 
-/* Blues that neighbours rarely share; light, so that grey copies show the darker band between them. */
-static const unsigned tints[4] = {0xdcebf5, 0xe8f2e4, 0xeee9f6, 0xe3f3f3};
+static const unsigned tints[4] = {DYD_RGB_CELL_0, DYD_RGB_CELL_1, DYD_RGB_CELL_2, DYD_RGB_CELL_3};
 
-/* Of rectangles, so that they are seen on the band. */
-#define SITE 0x444444
-
+/* row: whose elements are visited. */
 typedef struct voronoi_drawing {
   const dyd_diagram *d;
-  dyd_canvas *canvas;
+  dyd_picture picture;
+  const dyd_picture_layer *row;
   dyd_view view;
-  dyd_status st;
   double window[4];
-  bool cell, vertex, region; /* was drawn */
   dyd_error *err;
-  bool tiles; /* instead of certain parts */
-  dyd_site_marks marks;
+  dyd_sites_shown marks;
 } voronoi_drawing;
 
 static void polygon_outline(dyd_canvas *c, const dyd_view *v, const dyd_polygon *p) {
@@ -41,7 +36,7 @@ static void name_of(const voronoi_drawing *g, const char *id, const char *title,
     b += (size_t)snprintf(full_title + b, sizeof full_title - b, "%s %zu", k ? "," : "",
                           dyd_engine_row(g->d->engine, site[k]));
   }
-  dyd_canvas_name(g->canvas, full_id, full_title);
+  dyd_canvas_name(g->picture.canvas, full_id, full_title);
 }
 
 static dyd_status voronoi_cell(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
@@ -51,30 +46,36 @@ static dyd_status voronoi_cell(void *context, uint32_t i, const dyd_shape *shape
   dyd_status st = dyd_shape_inner(&inner, shape);
   if (st == DYD_OK && inner.count) {
     name_of(g, "cell", "certainly nearest to", &i, 1);
-    polygon_outline(g->canvas, &g->view, &inner);
-    dyd_picture_shape(g->canvas, tints[i % 4], 1, 0x0072b2, g->view.line * 0.6);
-    g->cell = true;
+    polygon_outline(g->picture.canvas, &g->view, &inner);
+    dyd_picture_tint(&g->picture, g->row, tints[i % 4]);
   }
   return st;
 }
 
-static dyd_status voronoi_tiles(voronoi_drawing *g) {
+static void inner_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  voronoi_drawing *g = p->what;
+  g->row = l;
+  p->st = dyd_diagram_visit(g->d, voronoi_cell, g);
+}
+
+static void tiles_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  const voronoi_drawing *g = p->what;
   const dyd_diagram *d = g->d;
   DYD_SCOPED(dyd_tiles) tiles = {0};
-  dyd_status st = dyd_diagram_tiles(&tiles, d, false, g->err);
-  for (size_t r = 0, end = 0; r < tiles.count && st == DYD_OK;) {
+  dyd_picture_seen(p, l);
+  p->st = dyd_diagram_tiles(&tiles, d, false, g->err);
+  for (size_t r = 0, end = 0; r < tiles.count && p->st == DYD_OK;) {
     uint32_t site = tiles.site[r];
     name_of(g, "tile", "tile of", &site, 1);
     dyd_diagram_tile(&end, d, &tiles);
     for (; r < end; r++) {
       for (size_t k = tiles.offset[r]; k < tiles.offset[r + 1]; k++)
-        (k == tiles.offset[r] ? dyd_canvas_move : dyd_canvas_line)(g->canvas, dyd_view_x(&g->view, tiles.xy[2 * k]),
-                                                                   dyd_view_y(&g->view, tiles.xy[2 * k + 1]));
-      dyd_canvas_close(g->canvas);
+        (k == tiles.offset[r] ? dyd_canvas_move : dyd_canvas_line)(p->canvas, dyd_view_x(p->view, tiles.xy[2 * k]),
+                                                                   dyd_view_y(p->view, tiles.xy[2 * k + 1]));
+      dyd_canvas_close(p->canvas);
     }
-    dyd_picture_shape(g->canvas, tints[site % 4], 1, 0x0072b2, g->view.line * 0.6);
+    dyd_picture_tint(p, l, tints[site % 4]);
   }
-  return st;
 }
 
 /* A tied face has one vertex, which is drawn as such. */
@@ -88,11 +89,16 @@ static dyd_status voronoi_region(void *context, size_t face, const double box[4]
       show[4] = {box[0] - pad, box[1] + pad, box[2] - pad, box[3] + pad};
   snprintf(id, sizeof id, "region-%zu", face);
   snprintf(title, sizeof title, "undecided vertices of face %zu", face);
-  dyd_canvas_name(g->canvas, id, title);
-  dyd_picture_box(g->canvas, &g->view, show);
-  dyd_picture_stroke(g->canvas, 0xd55e00, g->view.line, 4, 2.5);
-  g->region = true;
+  dyd_canvas_name(g->picture.canvas, id, title);
+  dyd_picture_box(g->picture.canvas, &g->view, show);
+  dyd_picture_paint(&g->picture, g->row);
   return DYD_OK;
+}
+
+static void faces_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  voronoi_drawing *g = p->what;
+  g->row = l;
+  p->st = dyd_diagram_regions(g->d, voronoi_region, g);
 }
 
 /* A tied one is named by its first sites. */
@@ -105,21 +111,24 @@ static dyd_status name_of_vertex(const voronoi_drawing *g, size_t k) {
   return st;
 }
 
-static dyd_status voronoi_vertices(voronoi_drawing *g) {
-  dyd_status st = DYD_OK;
-  for (size_t k = 0; k < dyd_diagram_vertices(g->d) && st == DYD_OK; k++) {
+static void vertices_walk(dyd_picture *p, const dyd_picture_layer *l) {
+  const voronoi_drawing *g = p->what;
+  for (size_t k = 0; k < dyd_diagram_vertices(g->d) && p->st == DYD_OK; k++) {
     const double *b = g->d->vertex[k];
     if (!dyd_diagram_vertex_in_window(g->d, k)) continue;
     if ((b[1] - b[0] + b[3] - b[2]) * g->view.scale > 12 * g->view.dot) continue; /* the band shows it better */
     double side = 1.6 * g->view.dot / g->view.scale, x = b[0] / 2 + b[1] / 2, y = b[2] / 2 + b[3] / 2;
     double wide = fmax(b[1] - b[0], side) / 2, high = fmax(b[3] - b[2], side) / 2,
            show[4] = {x - wide, x + wide, y - high, y + high};
-    st = name_of_vertex(g, k);
-    dyd_picture_box(g->canvas, &g->view, show);
-    dyd_picture_stroke(g->canvas, 0x0072b2, g->view.line * 0.8, 0, 0);
-    g->vertex = true;
+    p->st = name_of_vertex(g, k);
+    dyd_picture_box(p->canvas, p->view, show);
+    dyd_picture_paint(p, l);
   }
-  return st;
+}
+
+static void band_entry(dyd_legend *legend, const dyd_picture *p, const dyd_picture_layer *l) {
+  const voronoi_drawing *g = p->what;
+  if (dyd_dyadic_sgn(&g->d->bounds->area) > 0) dyd_legend_put(legend, l, l->text);
 }
 
 static void bound_text(char *out, size_t size, const dyd_voronoi_bounds *b) {
@@ -130,50 +139,48 @@ static void bound_text(char *out, size_t size, const dyd_voronoi_bounds *b) {
   snprintf(out, size, "undecided area at most %s, within %s of the true diagram", area, far);
 }
 
-static void voronoi_legend(dyd_canvas *c, void *context) {
-  const voronoi_drawing *g = context;
+static void voronoi_notes(dyd_legend *legend, const dyd_picture *p) {
+  const voronoi_drawing *g = p->what;
   char text[300], bounds[120];
-  dyd_legend l;
-  if (g->st != DYD_OK) return; /* then there are no bounds */
-  dyd_legend_begin(&l, c, &g->view);
-  if (g->tiles) dyd_legend_patch(&l, tints[0], "tile of one point (any light tint)");
-  if (g->cell) dyd_legend_patch(&l, tints[0], "certainly nearest to one point (any light tint)");
-  if (!g->tiles && dyd_dyadic_sgn(&g->d->bounds->area) > 0) dyd_legend_patch(&l, DYD_PICTURE_BAND, "undecided");
-  dyd_legend_marks(&l, &g->marks, 0x9b9b9b);
-  if (g->vertex) dyd_legend_line(&l, 0x0072b2, 0, 0, "box: contains a certain vertex");
-  if (g->region) dyd_legend_line(&l, 0xd55e00, 4, 2.5, "box: undecided vertices");
   bound_text(bounds, sizeof bounds, g->d->bounds);
   snprintf(text, sizeof text, "%zu points, outcome %s; %s", g->d->count,
            dyd_outcome_text(dyd_engine_outcome(g->d->engine)), bounds);
-  dyd_legend_text(&l, text);
-  dyd_legend_crowd(&l, &g->marks);
+  dyd_legend_text(legend, text);
+  dyd_legend_crowd(legend, p->sites);
 }
 
-static void voronoi_inside(dyd_canvas *c, void *context) {
-  voronoi_drawing *g = context;
-  g->canvas = c;
-  dyd_view_frame_path(c, &g->view);
-  dyd_picture_fill(c, DYD_PICTURE_BAND);
-  g->st = g->tiles ? voronoi_tiles(g) : dyd_diagram_visit(g->d, voronoi_cell, g);
-  if (g->st == DYD_OK && !g->tiles) g->st = dyd_diagram_regions(g->d, voronoi_region, g);
-  if (g->st == DYD_OK && !g->tiles) g->st = voronoi_vertices(g);
-  dyd_site_marks_draw(&g->marks, c, &g->view);
-}
+/* Of rectangles, so that they are seen on the band. */
+#define SITES(place) DYD_SITES_LAYERS(dyd_sites_walk, dyd_sites_entry, 0x444444, 0x9b9b9b, place)
+#define CELL DYD_STYLE_SHAPE(DYD_RGB_CELL_0, DYD_RGB_LEGAL, 0.6, 0)
+
+static const dyd_picture_layer voronoi_rows[] = {
+    {dyd_frame_walk, 0, DYD_STYLE_FILL(DYD_RGB_BAND), DYD_KEY_PATCH, 2, "undecided", band_entry},
+    {inner_walk, 0, CELL, DYD_KEY_PATCH, 1, "certainly nearest to one point (any light tint)", NULL},
+    {faces_walk, 0, DYD_STYLE_LINE(DYD_RGB_INDETERMINATE, 1, 4, 2.5), DYD_KEY_LINE, 5, "box: undecided vertices", NULL},
+    {vertices_walk, 0, DYD_STYLE_LINE(DYD_RGB_LEGAL, 0.8, 0, 0), DYD_KEY_LINE, 4, "box: contains a certain vertex",
+     NULL},
+    SITES(3)};
+
+static const dyd_picture_layer tiles_rows[] = {
+    {dyd_frame_walk, 0, DYD_STYLE_FILL(DYD_RGB_BAND), DYD_KEY_NONE, 0, "in no tile", NULL},
+    {tiles_walk, 0, CELL, DYD_KEY_PATCH, 1, "tile of one point (any light tint)", NULL},
+    SITES(2)};
+
+const dyd_picture_table dyd_voronoi_layers = DYD_PICTURE_TABLE(voronoi_rows, voronoi_notes),
+                        dyd_tiles_layers = DYD_PICTURE_TABLE(tiles_rows, voronoi_notes);
 
 dyd_status dyd_voronoi_picture(const dyd_output *o) {
   const dyd_diagram *what = o->what;
-  voronoi_drawing g = {.d = what,
-                       .err = o->err,
-                       .tiles = o->content == DYD_CONTENT_TILES,
-                       .marks = dyd_site_marks_of(what->pd, what->engine, SITE)};
+  const bool tiles = o->content == DYD_CONTENT_TILES;
+  voronoi_drawing g = {.d = what, .err = o->err, .marks = dyd_sites_shown_of(what->pd, what->engine)};
+  g.picture = (dyd_picture){tiles ? &dyd_tiles_layers : &dyd_voronoi_layers,
+                            tiles ? "Voronoi tiles" : "partial Voronoi diagram", .view = &g.view, .what = &g,
+                            .sites = &g.marks};
   dyd_rect_get_d(g.window, &g.d->window);
   dyd_status st = dyd_view_fit(&g.view, g.window, dyd_view_spacing(g.d->pd, NULL, g.window), o->err);
   g.view.frame[0] = dyd_view_x(&g.view, g.window[0]), g.view.frame[1] = dyd_view_x(&g.view, g.window[1]);
   g.view.frame[2] = dyd_view_y(&g.view, g.window[3]), g.view.frame[3] = dyd_view_y(&g.view, g.window[2]);
   g.view.epsg = o->epsg;
   g.view.discs = what->discs;
-  if (st == DYD_OK)
-    st = dyd_view_write(o, &g.view, g.tiles ? "Voronoi tiles" : "partial Voronoi diagram", voronoi_inside,
-                        voronoi_legend, &g);
-  return g.st == DYD_OK ? st : g.st;
+  return st == DYD_OK ? dyd_picture_write(&g.picture, o) : st;
 }

@@ -5,6 +5,7 @@
 Usage: test_pictures.py COMMAND DATA
 """
 import csv
+import math
 import os
 import pathlib
 import random
@@ -271,6 +272,24 @@ def test_plan():
             assert any(w.startswith(f'labels: rank: point; {len(plan)} points to measure, ') for w in svg.words(text))
     assert run('plan', '--quiet', '--format', 'svg', '-', stdin='0 0\n1 0\n0 1\n').code == 0
     expect(run('plan', '--format', 'svg', '--layer', 'pairs', '-', stdin='0 0\n1 0\n'), 2, r'\A\Z', 'does not write svg')
+
+
+def test_legend_counts_once():
+    """A page of a given width is laid out twice; its legend counts what is drawn once, all pairs together."""
+    for points in (FIXES, ('--sphere', '--radius', '20km', '-')):
+        places = ''.join(f'{k * 7 % 10} {k * 3 % 10}\n' for k in range(10))
+        said = [sorted(w for w in svg.words(run('plan', '--quiet', '--format', 'svg', *size, *points, stdin=places).out) if re.search('decide|already', w))
+                for size in ((), ('--width', '120mm'), ('--font-size', '20'))]
+        assert said[0] == said[1] == said[2] and len(said[0]) > 2, said
+
+
+def test_layers_keep_their_lines():
+    """Lines without names that are all out of sight are no part of what is drawn next, such as the frame."""
+    chance = random.Random(3)
+    points = ''.join(f'{chance.uniform(-180, 180):.3f} {math.degrees(math.asin(chance.uniform(-1, 1))):.3f}\n' for _ in range(13500))
+    text = picture('delaunay', points, '--sphere', '--window=10.001,10.002,20.001,20.002')
+    assert 'legal: ' not in ' '.join(svg.words(text))
+    assert max(len(svg.numbers(p)) for p in svg.paths(text) if p.look.get('stroke') == '#222222') == 8
 
 
 def test_kinds_agree():

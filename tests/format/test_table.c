@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The table of formats: names and endings lead back to their format, every writer writes, and a message for a missing
- * one names the existing ones. */
-#include "picture/canvas.h"
+ * one names the existing ones. The tables of pictures are whole. */
+#include "picture/picture.h"
 #include <dyadel/io.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -246,9 +246,46 @@ static void test_full_device(void **state) {
   example_clear(&x);
 }
 
+/* Every layer of a picture has a style, a key for it, words and a place; a table with a row that lacks one is not
+ * whole. */
+static void test_pictures(void **state) {
+  static const dyd_picture_table *const tables[] = {
+      &dyd_delaunay_layers, &dyd_graph_layers,   &dyd_tolerance_layers, &dyd_voronoi_layers,
+      &dyd_tiles_layers,    &dyd_plan_layers,    &dyd_sphere_layers,    &dyd_sphere_cells_layers,
+      &dyd_disc_layers,     &dyd_nearest_layers, &dyd_bisector_layers};
+  dyd_picture_layer row[DYD_PICTURE_LAYERS_MOST + 1] = {0};
+  (void)state;
+  for (size_t k = 0; k < sizeof tables / sizeof *tables; k++) {
+    dyd_picture_table t = *tables[k];
+    assert_true(dyd_picture_is_whole(&t));
+    memcpy(row, t.row, t.count * sizeof *row);
+    t.row = row;
+    for (size_t r = 0; r < t.count; r++) {
+      const dyd_picture_layer good = row[r], bare = {.walk = good.walk, .kind = good.kind, .style = good.style};
+      dyd_picture_layer bad[7] = {good, good, good, good, good, good, bare};
+      bad[0].style = (dyd_style){0};
+      bad[1].key = DYD_KEY_UNSET;
+      bad[2].text = NULL;
+      bad[3].text = "";
+      bad[4].place = good.place ? 0 : 1;
+      bad[5].place = DYD_PICTURE_LAYERS_MOST + 1;
+      for (size_t b = 0; b < sizeof bad / sizeof *bad; b++) {
+        row[r] = bad[b];
+        assert_false(dyd_picture_is_whole(&t));
+      }
+      row[r] = good;
+    }
+    assert_true(dyd_picture_is_whole(&t));
+    row[0].walk = NULL;
+    assert_false(dyd_picture_is_whole(&t));
+    t.count = DYD_PICTURE_LAYERS_MOST + 1;
+    assert_false(dyd_picture_is_whole(&t));
+  }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_names), cmocka_unit_test(test_layers),
-                                     cmocka_unit_test(test_missing), cmocka_unit_test(test_writers),
-                                     cmocka_unit_test(test_full_device)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_names),    cmocka_unit_test(test_layers),
+                                     cmocka_unit_test(test_pictures), cmocka_unit_test(test_missing),
+                                     cmocka_unit_test(test_writers),  cmocka_unit_test(test_full_device)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
