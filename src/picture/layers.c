@@ -11,7 +11,7 @@
 
 /* What a style draws, as a key can show it. */
 static bool key_suits(const dyd_picture_layer *l) {
-  const dyd_style *s = &l->style;
+  const dyd_picture_style *s = &l->style;
   if (s->levels) return l->key == DYD_KEY_SQUARES && l->entry;
   if (l->key == DYD_KEY_NONE) return s->fill || s->stroke;
   return l->key == DYD_KEY_LINE
@@ -34,7 +34,7 @@ void dyd_picture_seen(dyd_picture *p, const dyd_picture_layer *l) {
 }
 
 void dyd_picture_tint(dyd_picture *p, const dyd_picture_layer *l, unsigned rgb) {
-  const dyd_style *s = &l->style;
+  const dyd_picture_style *s = &l->style;
   const double width = p->view->line * s->lines + s->points, unit = fmax(width, 0.7);
   dyd_canvas_paint(p->canvas, &(dyd_paint){rgb, s->stroke, 1, width, s->on * unit, s->off * unit});
   dyd_picture_seen(p, l);

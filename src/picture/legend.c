@@ -224,7 +224,7 @@ static double entry_width(dyd_legend *l, double mark, const char *text) {
   return mark + 6 * l->canvas->text + dyd_canvas_width(l->canvas, SIZE, text);
 }
 
-static void legend_line(dyd_legend *l, const dyd_style *s, const char *text) {
+static void legend_line(dyd_legend *l, const dyd_picture_style *s, const char *text) {
   legend_room(l, entry_width(l, 30 * l->canvas->text, text));
   double z[2][2] = {{l->x, l->y}, {l->x + 30 * l->canvas->text, l->y}};
   dyd_picture_line(l->canvas, z, s->stroke, 2, s->on, s->off);
@@ -238,7 +238,7 @@ static void legend_patch(dyd_legend *l, unsigned rgb, const char *text) {
   legend_words(l, 30 * l->canvas->text, text);
 }
 
-static void legend_dot(dyd_legend *l, const dyd_style *s, const char *text) {
+static void legend_dot(dyd_legend *l, const dyd_picture_style *s, const char *text) {
   legend_room(l, entry_width(l, 8 * l->canvas->text, text));
   dyd_canvas_circle(l->canvas, l->x + 4 * l->canvas->text, l->y, 3.5 * l->canvas->text);
   dyd_picture_shape(l->canvas, s->fill, 1, s->stroke == DYD_NO_COLOUR ? s->fill : s->stroke, 1.2);

@@ -111,12 +111,12 @@ typedef struct dyd_picture_layer dyd_picture_layer;
 
 /* How a path is painted, in a row of a table by one of the macros below: rgb, or DYD_NO_COLOUR; the width is `lines`
  * times that of lines in the view and `points`; a dash in widths, off = 0: a full line. */
-typedef struct dyd_style {
+typedef struct dyd_picture_style {
   unsigned fill, stroke;
   double lines, points, on, off;
   unsigned patch;                   /* of sites: of their patch in the legend, as rectangles are translucent */
   const dyd_density_levels *levels; /* of squares; else NULL */
-} dyd_style;
+} dyd_picture_style;
 
 #define DYD_STYLE_FILL(rgb) .style = {(rgb), DYD_NO_COLOUR, 0, 0, 0, 0, (rgb), NULL}
 #define DYD_STYLE_LINE(rgb, lines, on, off) .style = {DYD_NO_COLOUR, (rgb), (lines), 0, (on), (off), 0, NULL}
@@ -138,7 +138,7 @@ typedef void dyd_picture_entry(dyd_legend *legend, const dyd_picture *p, const d
 struct dyd_picture_layer {
   dyd_picture_walk *walk;
   int kind; /* for the walk: which elements */
-  dyd_style style;
+  dyd_picture_style style;
   dyd_key key;
   unsigned place;           /* in the legend, from 1 on; 0 with DYD_KEY_NONE alone */
   const char *text;         /* in the legend */
@@ -165,12 +165,12 @@ extern const dyd_picture_table dyd_delaunay_layers, dyd_graph_layers, dyd_tolera
 bool dyd_picture_is_whole(const dyd_picture_table *t);
 
 /* Lines between sites, each in the layer whose kind it has. name: of the line that is the path; NULL: none has one. */
-typedef struct dyd_lines {
+typedef struct dyd_picture_lines {
   size_t count;
   int (*kind)(const dyd_picture *p, size_t k);
   bool (*path)(dyd_picture *p, size_t k); /* false: none of it is seen */
   void (*name)(dyd_picture *p, const dyd_picture_layer *l, size_t k);
-} dyd_lines;
+} dyd_picture_lines;
 
 /* A page. what: for the functions of the table. sites, pairs, lines: NULL, 0 where no layer shows them. */
 struct dyd_picture {
@@ -180,7 +180,7 @@ struct dyd_picture {
   void *what;
   const struct dyd_sites_shown *sites;
   struct dyd_pairs_shown *pairs;
-  dyd_lines lines;
+  dyd_picture_lines lines;
   /* While it is drawn: elements of each row so far; the first failure of a walk. */
   dyd_canvas *canvas;
   size_t drawn[DYD_PICTURE_LAYERS_MOST];

@@ -263,7 +263,7 @@ static void test_pictures(void **state) {
     for (size_t r = 0; r < t.count; r++) {
       const dyd_picture_layer good = row[r], bare = {.walk = good.walk, .kind = good.kind, .style = good.style};
       dyd_picture_layer bad[7] = {good, good, good, good, good, good, bare};
-      bad[0].style = (dyd_style){0};
+      bad[0].style = (dyd_picture_style){0};
       bad[1].key = DYD_KEY_UNSET;
       bad[2].text = NULL;
       bad[3].text = "";
