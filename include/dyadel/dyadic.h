@@ -44,11 +44,25 @@ DYD_API void dyd_dyadic_get_q(mpq_t q, const dyd_dyadic *x);
 /* The nearest double in the given direction: -inf / +inf beyond the largest double, subnormals included. */
 DYD_API double dyd_dyadic_get_d(const dyd_dyadic *x, dyd_round dir);
 
+/* Forms of a number in a text that a place takes, besides decimal digits. */
+typedef enum dyd_number_form {
+  DYD_NUMBER_MINUS = 1,     /* the sign - in front */
+  DYD_NUMBER_PLUS = 2,      /* the sign + in front */
+  DYD_NUMBER_POINT = 4,     /* a point within, before or behind the digits */
+  DYD_NUMBER_EXPONENT = 8,  /* e-3 or E+3, and p-3 behind hexadecimal digits */
+  DYD_NUMBER_HEX = 16,      /* 0x and hexadecimal digits, with a point where DYD_NUMBER_POINT is given, too */
+  DYD_NUMBER_QUOTIENT = 32, /* a whole decimal number, / and another one */
+  DYD_NUMBER_TWOS = 64,     /* *2^-3 behind the number */
+  DYD_NUMBER_INDENT = 128,  /* blanks in front: spaces, tabs, ends of lines */
+  DYD_NUMBER_BLANKS = 256,  /* blanks in front and at the end */
+  DYD_NUMBER_ANY = 511      /* all of them */
+} dyd_number_form;
+
 /* Lossless text "m*2^e" (or a plain integer when 0 <= e <= 64). Owned by the caller, release with free();
  * NULL when memory is exhausted. */
 DYD_API char *dyd_dyadic_get_str(const dyd_dyadic *x);
-/* Reads an integer, "m*2^e", a hexadecimal float or a decimal that is a dyadic ("0.125"), surrounding blanks
- * allowed. err may be NULL; on DYD_E_PARSE its column names the first bad character. */
+/* Reads a number in any form but a quotient, that is a dyadic ("0.125", "5*2^-20", "0x1.8p-3"). err may be NULL; on
+ * DYD_E_PARSE its column names the first bad character. */
 DYD_API dyd_status dyd_dyadic_set_str(dyd_dyadic *out, const char *text, dyd_error *err);
 
 #ifdef __cplusplus

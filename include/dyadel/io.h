@@ -167,9 +167,6 @@ typedef dyd_status (*dyd_record_fn)(void *user, const dyd_record *record, dyd_er
 DYD_API dyd_status dyd_read_records(FILE *in, char delimiter, dyd_record_fn record, void *user, dyd_error *err);
 /* Returns field k, from 0, which is not terminated; NULL, with *length = 0, where the record ends before. */
 DYD_API const char *dyd_record_field(size_t *length, const dyd_record *record, size_t k);
-/* Sets *out to the decimal integer that is all of field k; false, with *out undefined, if it is none from least to
- * most. */
-DYD_API bool dyd_record_integer(int64_t *out, const dyd_record *record, size_t k, int64_t least, int64_t most);
 /* Sets err->line and err->column to the begin of field k, or to the end of the record where it ends before. */
 DYD_API void dyd_record_place(dyd_error *err, const dyd_record *record, size_t k);
 

@@ -132,6 +132,11 @@ DYD_API dyd_status dyd_real_op(dyd_real **out, dyd_real *x, dyd_real *y, dyd_rea
  * dyd_real_new, and for a second claim. x stays as it was on failure. */
 DYD_API dyd_status dyd_real_claim_root(dyd_real *x, const mpq_t *coeff, size_t count, const mpq_t lo, const mpq_t hi,
                                        dyd_error *err);
+/* The exact value of a number in one of the forms (dyd_number_form); out, initialised by the caller, becomes canonical,
+ * and is unchanged on failure. DYD_E_PARSE, DYD_E_DOMAIN (denominator 0), DYD_E_RANGE or DYD_E_NOMEM with column and
+ * message in *err, which may be NULL. Numbers of up to 18 digits and small exponents need no memory beyond that of out.
+ */
+DYD_API dyd_status dyd_parse_number(mpq_t out, const char *text, size_t length, unsigned forms, dyd_error *err);
 /* The exact value of a text that dyd_real_parse takes, where that is a rational number; else DYD_E_PARSE. */
 DYD_API dyd_status dyd_real_parse_exact(mpq_t out, const char *text, size_t length);
 DYD_API dyd_real *dyd_real_ref(dyd_real *x);

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Contracts for src/dyadic/text.c: LENGTH is that of the text that is read, of any bytes. */
+/* Contracts for src/dyadic/text.c. */
+/* Unproved dyd_numeral_digits_assigns_exit_part3, dyd_numeral_digits_assigns_exit_part4,
+   dyd_numeral_digits_assigns_normal_part4, dyd_numeral_digits_assigns_normal_part5: the digits are in new memory, of
+   which the caller knows nothing; WP does not follow malloc. */
 #include "contracts.h"
 
 #include "base/error.h"
@@ -14,5 +17,6 @@ void print_exponent(char *at, int64_t exp);
 /*@ assigns \nothing; exits \false; */
 const char *dyd_status_text(dyd_status status);
 
-/*@ axiomatic Length { logic integer LENGTH; axiom length: 0 <= LENGTH <= 1152921504606846976; } */
+/*@ assigns \nothing; exits \false; */
+static inline bool dyd_is_blank(char c);
 #include "dyadic/text.c"

@@ -121,6 +121,14 @@ int cli_exit_refused(const cli_options *o, dyd_status st);
  * out is initialised by the caller; 0, or an exit status after a message. */
 int cli_window_read(dyd_rect *out, const char *text);
 
+/* What numbers of options may have besides digits: a sign, and blanks in front. */
+enum { CLI_FORMS = DYD_NUMBER_INDENT | DYD_NUMBER_MINUS | DYD_NUMBER_PLUS };
+
+/* options.c: the whole number that is all of the text; false, with *out undefined, if it is none from least to most. */
+bool cli_integer_read(int64_t *out, const char *text, size_t length, unsigned forms, int64_t least, int64_t most);
+/* The same of field k. */
+bool cli_field_integer(int64_t *out, const dyd_record *row, size_t k, int64_t least, int64_t most);
+
 /* options.c: an exact number that is not negative, of the option --name; 0, or CLI_USAGE after a message. */
 int cli_number_read(mpq_ptr out, const char *name, const char *text);
 

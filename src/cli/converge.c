@@ -37,18 +37,15 @@ static bool is_piece(const cli_session *s) {
 static bool read_modulus(cli_session *s) {
   cli_options *o = &s->o;
   converge_run *r = s->state;
-  int end = 0;
   enum { MOST = 1000000 };
   if (!o->modulus) return true;
-  long long from = 0, to = 0;
-  if (sscanf(o->modulus, "%9lld:%9lld%n", &from, &to, &end) != 2 || o->modulus[end] || from > to || from < -MOST ||
-      to > MOST)
+  const char *colon = strchr(o->modulus, ':');
+  if (!colon || !cli_integer_read(&r->from, o->modulus, (size_t)(colon - o->modulus), CLI_FORMS, -MOST, MOST) ||
+      !cli_integer_read(&r->to, colon + 1, strlen(colon + 1), CLI_FORMS, r->from, MOST))
     return false;
-  r->from = from;
-  r->to = to;
   r->how.rates = true;
   if (o->engine.goal == DYD_GOAL_DECIDED) o->engine.goal = DYD_GOAL_HAUSDORFF;
-  if (o->engine.goal_bits < to) o->engine.goal_bits = to;
+  if (o->engine.goal_bits < r->to) o->engine.goal_bits = r->to;
   if (!o->engine.step_bits) o->engine.step_bits = 1;
   if (!o->start_set) o->engine.start_bits = 1;
   return o->start_set = true;
@@ -329,13 +326,13 @@ static bool row_is_named(const dyd_record *row, const char *name) {
 static dyd_status read_given_move(void *user, const dyd_record *row, dyd_error *err) {
   check_run *s = user;
   int64_t value[3] = {0};
-  if (row_is_named(row, "base") && dyd_record_integer(&s->options.base_bits, row, 1, 1, DYD_EXP_LIMIT / 2))
+  if (row_is_named(row, "base") && cli_field_integer(&s->options.base_bits, row, 1, 1, DYD_EXP_LIMIT / 2))
     return DYD_OK;
-  if (row_is_named(row, "seed") && dyd_record_integer(&value[0], row, 1, 0, INT64_MAX))
+  if (row_is_named(row, "seed") && cli_field_integer(&value[0], row, 1, 0, INT64_MAX))
     return s->options.seed = (uint64_t)value[0], DYD_OK;
   for (size_t k = 0; k < 4; k++)
     if (k == 3 ? row->fields > 3
-               : !dyd_record_integer(&value[k], row, k, k != 1, k == 2 ? DYD_EXP_LIMIT / 2 : UINT32_MAX))
+               : !cli_field_integer(&value[k], row, k, k != 1, k == 2 ? DYD_EXP_LIMIT / 2 : UINT32_MAX))
       return refuse_move(row, k, "this is not a move; give STAGE POINT BITS, stages from 1, points from 0", err);
   if (s->count && s->move[s->count - 1].stage > value[0])
     return refuse_move(row, 0, "this stage comes after a later one; sort the moves by STAGE", err);

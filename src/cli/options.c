@@ -5,9 +5,9 @@
 #include "cli.h"
 
 #include <ctype.h>
-#include <errno.h>
 #include <getopt.h>
 #include <math.h>
+#include <mpfr.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -108,11 +108,33 @@ static bool value_usage(const cli_option *option, const char *value, const char 
   return false;
 }
 
-static bool value_scan_integer(long long *out, const char *text, long long least, long long most) {
-  char *end;
-  errno = 0;
-  *out = strtoll(text, &end, 10);
-  return end != text && !*end && errno == 0 && *out >= least && *out <= most;
+bool cli_integer_read(int64_t *out, const char *text, size_t length, unsigned forms, int64_t least, int64_t most) {
+  mpq_t q;
+  mpq_init(q);
+  const bool read = dyd_parse_number(q, text, length, forms, NULL) == DYD_OK && mpz_fits_slong_p(mpq_numref(q));
+  *out = mpz_get_si(mpq_numref(q));
+  mpq_clear(q);
+  return read && *out >= least && *out <= most;
+}
+
+bool cli_field_integer(int64_t *out, const dyd_record *row, size_t k, int64_t least, int64_t most) {
+  size_t length;
+  const char *text = dyd_record_field(&length, row, k);
+  return cli_integer_read(out, text, length, DYD_NUMBER_MINUS, least, most);
+}
+
+/* The nearest double; NAN where it is no number. */
+static double value_double(const char *text, size_t length) {
+  mpq_t q;
+  mpfr_t x;
+  mpq_init(q);
+  mpfr_init2(x, 53);
+  const unsigned forms = CLI_FORMS | DYD_NUMBER_POINT | DYD_NUMBER_EXPONENT | DYD_NUMBER_HEX;
+  if (dyd_parse_number(q, text, length, forms, NULL) == DYD_OK) mpfr_set_q(x, q, MPFR_RNDN);
+  const double nearest = mpfr_get_d(x, MPFR_RNDN);
+  mpfr_clear(x);
+  mpq_clear(q);
+  return nearest;
 }
 
 /* Returns the power of 2 meant by K, M, G or T at the end of a number of bytes. */
@@ -123,11 +145,9 @@ static int value_unit(const char *text) {
 }
 
 static bool value_integer(void *place, const cli_option *option, const char *text) {
-  long long value;
-  char number[64];
+  int64_t value;
   const int shift = option->kind == CLI_BYTES ? value_unit(text) : 0;
-  const int length = snprintf(number, sizeof number, "%.*s", (int)strlen(text) - (shift > 0), text);
-  if (length >= (int)sizeof number || !value_scan_integer(&value, number, option->least, option->most >> shift)) {
+  if (!cli_integer_read(&value, text, strlen(text) - (shift > 0), CLI_FORMS, option->least, option->most >> shift)) {
     char wanted[96];
     snprintf(wanted, sizeof wanted,
              option->kind == CLI_BYTES ? "a number of bytes, such as 500M or 2G" : "a whole number from %lld to %lld",
@@ -138,18 +158,15 @@ static bool value_integer(void *place, const cli_option *option, const char *tex
     *(unsigned *)place = (unsigned)value;
   } else {
     value <<= shift;
-    /* int64_t, uint64_t and size_t hold these values the same way. */
-    int64_t wide = value;
-    memcpy(place, &wide, sizeof wide);
+    memcpy(place, &value, sizeof value); /* uint64_t and size_t hold these values the same way */
   }
   return true;
 }
 
 static bool value_number(double *place, const cli_option *option, const char *text) {
-  char *end;
-  double value = strtod(text, &end);
+  const double value = value_double(text, strlen(text));
   bool seconds = option->kind == CLI_SECONDS;
-  if (end == text || *end || !isfinite(value) || value <= 0 || (!seconds && value > 90))
+  if (!isfinite(value) || value <= 0 || (!seconds && value > 90))
     return value_usage(option, text, seconds ? "a number of seconds above 0" : "degrees above 0, at most 90");
   *place = value;
   return true;
@@ -159,13 +176,12 @@ static bool value_length(double *place, const cli_option *option, const char *te
   static const struct {
     const char *name;
     double points;
-  } unit[] = {{"", 1}, {"pt", 1}, {"mm", 72 / 25.4}, {"cm", 72 / 2.54}, {"in", 72}};
-  char *end;
+  } unit[] = {{"pt", 1}, {"mm", 72 / 25.4}, {"cm", 72 / 2.54}, {"in", 72}, {"", 1}};
+  const size_t length = strlen(text), behind = length < 2 ? 0 : length - 2;
   size_t k = 0;
-  double value = strtod(text, &end);
-  while (k < 5 && strcmp(end, unit[k].name) != 0) k++;
-  if (k < 5) *place = value * unit[k].points;
-  if (k == 5 || end == text || !(*place >= 1 && *place <= 5000))
+  while (k < 4 && strcmp(text + behind, unit[k].name) != 0) k++;
+  *place = value_double(text, k < 4 ? behind : length) * unit[k].points;
+  if (!(*place >= 1 && *place <= 5000))
     return value_usage(option, text,
                        "a length of at least a point and at most 5000, such as 240, 85mm, 12cm or 3.25in");
   return true;
@@ -174,12 +190,13 @@ static bool value_length(double *place, const cli_option *option, const char *te
 static bool value_goal(dyd_engine_options *e, const cli_option *option, const char *text) {
   const char *colon = strchr(text, ':');
   size_t length = colon ? (size_t)(colon - text) : strlen(text);
-  long long bits = 0;
+  int64_t bits = 0;
   e->goal = DYD_GOAL_DECIDED;
   if (!colon && strcmp(text, "decided") == 0) return true;
   if (length == 4 && strncmp(text, "area", 4) == 0) e->goal = DYD_GOAL_AREA;
   if (length == 9 && strncmp(text, "hausdorff", 9) == 0) e->goal = DYD_GOAL_HAUSDORFF;
-  if (!colon || e->goal == DYD_GOAL_DECIDED || !value_scan_integer(&bits, colon + 1, -DYD_EXP_LIMIT, DYD_EXP_LIMIT))
+  if (!colon || e->goal == DYD_GOAL_DECIDED ||
+      !cli_integer_read(&bits, colon + 1, strlen(colon + 1), CLI_FORMS, -DYD_EXP_LIMIT, DYD_EXP_LIMIT))
     return value_usage(option, text, "decided, area:M or hausdorff:M with a whole number M");
   e->goal_bits = bits;
   return true;
@@ -227,8 +244,9 @@ static bool value_format(dyd_format *place, const cli_option *option, const char
 }
 
 static bool value_crs(unsigned *place, const cli_option *option, const char *text) {
-  long long number;
-  if (strncasecmp(text, "EPSG:", 5) != 0 || !value_scan_integer(&number, text + 5, 1, 999999))
+  int64_t number;
+  if (strncasecmp(text, "EPSG:", 5) != 0 ||
+      !cli_integer_read(&number, text + 5, strlen(text + 5), CLI_FORMS, 1, 999999))
     return value_usage(option, text, "EPSG: and a number, such as EPSG:32632");
   *place = (unsigned)number;
   return true;

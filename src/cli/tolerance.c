@@ -176,7 +176,7 @@ static dyd_status pairs_row(void *user, const dyd_record *row, dyd_error *err) {
   p->begun = true;
   if (header) return DYD_OK;
   for (size_t k = 0; k < 2; k++)
-    if (!dyd_record_integer(&end[k], row, p->column[k], 0, UINT32_MAX)) return pairs_refuse(row, p->column[k], err);
+    if (!cli_field_integer(&end[k], row, p->column[k], 0, UINT32_MAX)) return pairs_refuse(row, p->column[k], err);
   if (end[0] == end[1]) return pairs_refuse(row, p->column[1], err);
   dyd_record_place(err, row, p->column[0]);
   if (plan_add_pair(p->run, (uint32_t)end[0], (uint32_t)end[1], err->line)) return DYD_OK;

@@ -26,6 +26,7 @@
 #include "base/parallel.h"
 #include "delaunay/extend.h"
 #include "delaunay/memory.h"
+#include "dyadic/numeral.h"
 #include "engine/points.h"
 #include "engine/settle.h"
 #include "engine/ties.h"
@@ -182,17 +183,22 @@ static dyd_status policy_describe(FILE *out, const dyd_engine *e, const dyd_requ
 
 /* Takes one line of an answer; *done: it was the last. */
 static dyd_status policy_take(bool *done, dyd_wants *wants, const char *line, dyd_error *err) {
-  char shown[80], site[11], bits[20], *left = bits;
-  int end = 0;
+  static const char word[] = "refine";
+  const size_t length = strlen(line);
+  size_t from = sizeof word - 1;
+  char shown[80];
+  dyd_numeral site;
+  int64_t bits;
   *done = strcmp(line, "go") == 0;
   if (*done) return DYD_OK;
-  if (sscanf(line, "refine %10[0-9] %19[-0-9]%n", site, bits, &end) == 2 && !line[end]) {
-    unsigned long long i = strtoull(site, NULL, 10);
-    long long b = strtoll(bits, &left, 10);
-    if (!*left) return dyd_wants_add(wants, i < UINT32_MAX ? (uint32_t)i : UINT32_MAX, b);
-  }
+  const bool refine = strncmp(line, word, from) == 0;
+  while (refine && dyd_is_blank(line[from])) from++;
+  if (refine && dyd_literal_scan(&site, line, length, from, 0) && site.digits <= 10 &&
+      dyd_integer_scan(&bits, line + site.end, length - site.end, DYD_NUMBER_MINUS | DYD_NUMBER_INDENT, INT64_MIN,
+                       INT64_MAX))
+    return dyd_wants_add(wants, site.man < UINT32_MAX ? (uint32_t)site.man : UINT32_MAX, bits);
   return dyd_fail(err, DYD_E_STREAM, "the policy program wrote %s; a line of its answer is \"refine I B\" or \"go\"",
-                  dyd_quoted(shown, sizeof shown, line, strlen(line)));
+                  dyd_quoted(shown, sizeof shown, line, length));
 }
 
 static dyd_status policy_ask(dyd_wants *wants, void *user, const dyd_engine *e, const dyd_request *request,

@@ -4,6 +4,7 @@
 #include "io/json.h"
 
 #include "base/local.h"
+#include "dyadic/numeral.h"
 #include "io/decimal.h"
 #include "io/output.h"
 #include "voronoi/surd_point.h"
@@ -188,13 +189,11 @@ void dyd_json_ids(dyd_json *j, const dyd_engine *e, const uint32_t *site, size_t
 }
 
 bool dyd_json_is_number(const char *s) {
-  size_t whole = strspn(s += *s == '-', "0123456789"), part = 1;
-  if (!whole || (whole > 1 && *s == '0')) return false;
-  s += whole;
-  if (*s == '.') part = strspn(s + 1, "0123456789"), s += 1 + part;
-  if (part && (*s == 'e' || *s == 'E'))
-    s += 1 + (s[1] == '-' || s[1] == '+'), part = strspn(s, "0123456789"), s += part;
-  return part && !*s;
+  dyd_numeral n;
+  if (!dyd_numeral_scan(&n, s, strlen(s), DYD_NUMBER_JSON)) return false;
+  const size_t whole = n.digits - n.fraction;
+  const bool pointed = n.mantissa_end - n.first > n.digits;
+  return whole > 0 && (whole == 1 || s[n.first] != '0') && (!pointed || n.fraction > 0);
 }
 
 void dyd_json_carried(dyd_json *j, const dyd_engine *e, size_t i) {

@@ -24,7 +24,8 @@ typedef struct degrees {
   const char *text, *at, *end;
   char letter;
   bool negative, marked, colon, gap; /* a part ended by a mark; by a colon; by nothing but blanks */
-  size_t count, unit[PARTS], first[PARTS], length[PARTS];
+  size_t count, unit[PARTS];
+  dyd_numeral number[PARTS];
 } degrees;
 
 static bool degrees_take(degrees *d, const char *word) {
@@ -57,18 +58,12 @@ static size_t degrees_mark(degrees *d) {
 
 /* Digits with at most one point, and the mark after them. */
 static bool degrees_part(degrees *d) {
-  const char *begin = d->at;
-  size_t digits = 0, least = d->count ? d->unit[d->count - 1] + 1 : 0;
-  for (bool point = false; d->at < d->end; d->at++) {
-    bool digit = *d->at >= '0' && *d->at <= '9';
-    if (!digit && (point || *d->at != '.')) break;
-    digits += digit;
-    point = point || !digit;
-  }
-  if (!digits || d->count == PARTS || least == PARTS) return false;
-  d->first[d->count] = (size_t)(begin - d->text);
-  d->length[d->count] = (size_t)(d->at - begin);
-  const char *behind = d->at;
+  const size_t least = d->count ? d->unit[d->count - 1] + 1 : 0;
+  if (d->count == PARTS || least == PARTS) return false;
+  dyd_numeral *n = &d->number[d->count];
+  if (!dyd_literal_scan(n, d->text, (size_t)(d->end - d->text), (size_t)(d->at - d->text), DYD_NUMBER_POINT))
+    return false;
+  const char *behind = d->at = d->text + n->end;
   degrees_blanks(d);
   size_t unit = degrees_mark(d);
   if (unit < PARTS)
@@ -98,21 +93,17 @@ static bool degrees_scan(degrees *d) {
   return d->at == d->end && (d->marked || d->letter || colons) && (!d->colon || (!d->marked && colons));
 }
 
-static size_t degrees_decimals(const degrees *d, size_t k) {
-  const char *point = memchr(d->text + d->first[k], '.', d->length[k]);
-  return point ? d->length[k] - (size_t)(point - d->text) - 1 + d->first[k] : 0;
-}
-
 /* Appends part k to the sum; sets half to half a unit of its last digit. */
 static dyd_status degrees_add(mpq_t sum, mpq_t half, const degrees *d, size_t k, dyd_error *err) {
   static const unsigned long in_degree[PARTS] = {1, 60, 3600};
   static const char *const name[PARTS] = {"degrees", "minutes", "seconds"};
-  const size_t at = d->first[k], unit = d->unit[k], decimals = degrees_decimals(d, k);
-  if (k + 1 < d->count && memchr(d->text + at, '.', d->length[k]))
+  const dyd_numeral *n = &d->number[k];
+  const size_t at = n->first, unit = d->unit[k];
+  if (k + 1 < d->count && !n->integer)
     return dyd_text_fail(err, DYD_E_PARSE, d->text, at, "only the last number may have decimals: write whole %s",
                          name[unit]);
   DYD_LOCAL_NUMBERS(mpq, part);
-  dyd_status st = dyd_parse_number(part, d->text + at, d->length[k], NULL);
+  dyd_status st = dyd_literal_value(part, n);
   if (st == DYD_OK && unit && mpq_cmp_ui(part, 60, 1) >= 0)
     st = dyd_text_fail(err, DYD_E_PARSE, d->text, at, "%s are below 60", name[unit]);
   else if (st != DYD_OK)
@@ -120,7 +111,7 @@ static dyd_status degrees_add(mpq_t sum, mpq_t half, const degrees *d, size_t k,
   mpz_mul_ui(mpq_denref(part), mpq_denref(part), in_degree[unit]);
   mpq_canonicalize(part);
   mpq_add(sum, sum, part);
-  mpz_ui_pow_ui(mpq_denref(half), 10, decimals);
+  mpz_ui_pow_ui(mpq_denref(half), 10, n->fraction);
   mpz_mul_ui(mpq_denref(half), mpq_denref(half), 2 * in_degree[unit]);
   mpz_set_ui(mpq_numref(half), 1);
   return st;

@@ -60,7 +60,7 @@ mpq_srcptr dyd_constant_get(dyd_constant_view *view, const dyd_constant *c) {
 }
 
 /* The value of a literal, as dyd_literal_value; c is 0/1 before. */
-static dyd_status constant_literal(dyd_constant *c, const dyd_literal *in) {
+static dyd_status constant_literal(dyd_constant *c, const dyd_numeral *in) {
   uint64_t num, den;
   if (dyd_literal_words(&num, &den, in) && num >> SHORT_BITS == 0 && den >> SHORT_BITS == 0) {
     c->u.num = (int64_t)num;
@@ -509,7 +509,7 @@ static dyd_status charge_constant(parser *p, size_t at) {
   return FAIL(p, at, DYD_E_RANGE, "the exact numbers of this expression are too long; shorten it");
 }
 
-static dyd_status push_literal(parser *p, const dyd_literal *l, size_t at) {
+static dyd_status push_literal(parser *p, const dyd_numeral *l, size_t at) {
   dyd_expr *e = p->e;
   dyd_status st = push_node(p, DYD_OP_CONST, at);
   if (st != DYD_OK) return st;
@@ -708,8 +708,8 @@ static dyd_status parse_name(parser *p) {
 
 static dyd_status parse_primary(parser *p) {
   int c = peek_char(p);
-  dyd_literal l;
-  if (dyd_literal_scan(&l, p->text, p->length, p->pos)) {
+  dyd_numeral l;
+  if (dyd_literal_scan(&l, p->text, p->length, p->pos, DYD_NUMBER_LITERAL)) {
     size_t at = p->pos;
     p->pos = l.end;
     return push_literal(p, &l, at);

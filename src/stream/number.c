@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Plain numbers: where a literal begins and ends, which of the plain forms a text has, exact values, and the measured
- * half unit.
+/* Plain numbers: exact values, and the measured half unit.
  *
  * A decimal m * 10^-k in lowest terms: only the primes 2 and 5 can cancel, so short numbers need no gcd. */
 #include "stream/number.h"
@@ -12,107 +11,11 @@
 #include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
-
-/* (-) literal, (-) literal / denominator, or (-) literal * 2^two.
- * Invariant: at most one of rational and dyadic; denominator counts only when rational, two only when dyadic. */
-typedef struct dyd_number_form {
-  bool negative, rational, dyadic;
-  dyd_literal literal, denominator;
-  int64_t two;
-} dyd_number_form;
-
-/* Exponents beyond this mean DYD_E_RANGE in any case. */
-#define EXPONENT_CAP ((int64_t)1 << 40)
-
-static bool is_decimal_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
-static bool is_hex_digit(char c) {
-  return is_decimal_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
-}
-
-/* An optional sign and decimal digits at *pos; moves *pos behind them. false (nothing moved): no digits. */
-static bool scan_exponent(int64_t *out, const char *text, size_t length, size_t *pos) {
-  size_t i = *pos;
-  bool negative = i < length && text[i] == '-';
-  if (i < length && (text[i] == '-' || text[i] == '+')) i++;
-  if (i >= length || !is_decimal_digit(text[i])) return false;
-  int64_t value = 0;
-  for (; i < length && is_decimal_digit(text[i]); i++) {
-    if (value < EXPONENT_CAP) value = 10 * value + (text[i] - '0');
-  }
-  if (value > EXPONENT_CAP) value = EXPONENT_CAP;
-  *out = negative ? -value : value;
-  *pos = i;
-  return true;
-}
-
-bool dyd_literal_scan(dyd_literal *out, const char *text, size_t length, size_t pos) {
-  dyd_literal l = {.text = text, .first = pos};
-  l.hex = pos + 2 < length && text[pos] == '0' && (text[pos + 1] == 'x' || text[pos + 1] == 'X') &&
-          (is_hex_digit(text[pos + 2]) || text[pos + 2] == '.');
-  if (l.hex) l.first = pos += 2;
-  bool point = false;
-  for (; pos < length; pos++) {
-    if (text[pos] == '.' && !point) {
-      point = true;
-    } else if (l.hex ? is_hex_digit(text[pos]) : is_decimal_digit(text[pos])) {
-      l.digits++;
-      l.fraction += point;
-    } else {
-      break;
-    }
-  }
-  if (!l.digits) return false;
-  l.mantissa_end = pos;
-  bool mark = pos < length && (l.hex ? text[pos] == 'p' || text[pos] == 'P' : text[pos] == 'e' || text[pos] == 'E');
-  size_t behind = pos + 1;
-  bool exponent = mark && scan_exponent(&l.exponent, text, length, &behind);
-  l.end = exponent ? behind : pos;
-  l.integer = !l.hex && !point && !exponent;
-  *out = l;
-  return true;
-}
-
-/* Reads "*2^e" or "/q" at *pos, if there, and moves *pos behind it; false: *pos is where it breaks off. */
-static bool scan_suffix(dyd_number_form *f, const char *text, size_t length, size_t *pos) {
-  size_t i = *pos;
-  if (i < length && text[i] == '/' && f->literal.integer) {
-    f->rational = dyd_literal_scan(&f->denominator, text, length, ++i) && f->denominator.integer;
-    *pos = f->rational ? f->denominator.end : i;
-    return f->rational;
-  }
-  if (i + 2 < length && text[i] == '*' && text[i + 1] == '2' && text[i + 2] == '^') {
-    i += 3;
-    f->dyadic = scan_exponent(&f->two, text, length, &i);
-    *pos = i;
-    return f->dyadic;
-  }
-  return true;
-}
-
-/* Reads the whole text, blanks around it aside. false: *bad is the offset of the first character that does not
- * fit (the length of the text when it ends too early). */
-static bool dyd_number_scan(dyd_number_form *out, size_t *bad, const char *text, size_t length) {
-  dyd_number_form f = {0};
-  size_t i = 0;
-  while (length && dyd_is_blank(text[length - 1])) length--;
-  while (i < length && dyd_is_blank(text[i])) i++;
-  if (i < length && (text[i] == '-' || text[i] == '+')) f.negative = text[i++] == '-';
-  *bad = i;
-  if (!dyd_literal_scan(&f.literal, text, length, i)) return false;
-  i = f.literal.end;
-  bool whole = scan_suffix(&f, text, length, &i) && i == length;
-  *bad = i;
-  *out = f;
-  return whole;
-}
+#include <string.h>
 
 bool dyd_is_plain_number(const char *text, size_t length) {
-  dyd_number_form f;
-  size_t bad;
-  return dyd_number_scan(&f, &bad, text, length);
+  dyd_numeral n;
+  return dyd_numeral_scan(&n, text, length, DYD_NUMBER_ANY);
 }
 
 size_t dyd_text_column(const char *text, size_t offset) {
@@ -186,48 +89,31 @@ bool dyd_small_decimal(mpq_ptr out, uint64_t m, int ten) {
   return true;
 }
 
-/* All digits of a literal of at most 18 decimal digits, as an integer. */
-static uint64_t small_digits(const dyd_literal *in) {
-  uint64_t m = 0;
-  for (size_t i = in->first; i < in->mantissa_end; i++) {
-    if (in->text[i] != '.') m = 10 * m + (uint64_t)(in->text[i] - '0');
-  }
-  return m;
-}
-
 /* The power of ten that the digits as an integer are multiplied by. */
-static int64_t literal_ten(const dyd_literal *in) {
+static int64_t literal_ten(const dyd_numeral *in) {
   return in->exponent - (int64_t)in->fraction;
 }
 
-static bool literal_is_small(const dyd_literal *in) {
+static bool literal_is_small(const dyd_numeral *in) {
   int64_t ten = literal_ten(in);
-  return !in->hex && in->digits <= SMALL_DIGITS && ten >= -SMALL_DIGITS && ten <= SMALL_DIGITS;
+  return !in->hex && in->few && ten >= -SMALL_DIGITS && ten <= SMALL_DIGITS;
 }
 
-bool dyd_literal_words(uint64_t *num, uint64_t *den, const dyd_literal *in) {
-  return literal_is_small(in) && decimal_words(num, den, small_digits(in), (int)literal_ten(in));
+bool dyd_literal_words(uint64_t *num, uint64_t *den, const dyd_numeral *in) {
+  return literal_is_small(in) && decimal_words(num, den, in->man, (int)literal_ten(in));
 }
 
 /* By single words, where they do. */
-static bool literal_small_value(mpq_ptr out, const dyd_literal *in) {
-  return literal_is_small(in) && dyd_small_decimal(out, small_digits(in), (int)literal_ten(in));
+static bool literal_small_value(mpq_ptr out, const dyd_numeral *in) {
+  return literal_is_small(in) && dyd_small_decimal(out, in->man, (int)literal_ten(in));
 }
 
-/* All digits as an integer, whatever their number up to MAX_DIGITS (leading zeros aside). */
-static dyd_status all_digits(mpz_t out, const dyd_literal *in) {
-  size_t first = in->first, count = 0;
-  while (first < in->mantissa_end && (in->text[first] == '0' || in->text[first] == '.')) first++;
-  if (in->mantissa_end - first > MAX_DIGITS) return DYD_E_RANGE;
-  DYD_FREED char *buffer = dyd_alloc(in->mantissa_end - first + 2, 1);
-  if (!buffer) return DYD_E_NOMEM;
-  for (size_t i = first; i < in->mantissa_end; i++) {
-    if (in->text[i] != '.') buffer[count++] = in->text[i];
-  }
-  if (!count) buffer[count++] = '0';
-  buffer[count] = 0;
-  mpz_set_str(out, buffer, in->hex ? 16 : 10);
-  return DYD_OK;
+/* All digits as an integer. Zeros in front make no difference to the limit. */
+static dyd_status all_digits(mpz_ptr out, const dyd_numeral *in) {
+  size_t zeros = 0;
+  while (in->first + zeros < in->mantissa_end && memchr("0.", in->text[in->first + zeros], 2)) zeros++;
+  if (in->mantissa_end - in->first - zeros > MAX_DIGITS) return DYD_E_RANGE;
+  return dyd_numeral_digits(out, in);
 }
 
 /* x *= 2^two. */
@@ -256,7 +142,7 @@ static dyd_status scale_ten(mpq_ptr x, int64_t ten) {
   return dyd_rational_fits(x);
 }
 
-dyd_status dyd_literal_value(mpq_ptr out, const dyd_literal *in) {
+dyd_status dyd_literal_value(mpq_ptr out, const dyd_numeral *in) {
   if (literal_small_value(out, in)) return DYD_OK;
   mpz_set_ui(mpq_denref(out), 1);
   dyd_status st = all_digits(mpq_numref(out), in);
@@ -264,20 +150,22 @@ dyd_status dyd_literal_value(mpq_ptr out, const dyd_literal *in) {
   return in->hex ? scale_two(out, in->exponent - 4 * (int64_t)in->fraction) : scale_ten(out, literal_ten(in));
 }
 
-/* The value of a scanned form; *at is the offset to blame on failure. */
-static dyd_status form_value(mpq_ptr out, size_t *at, const dyd_number_form *f) {
-  *at = f->literal.first;
-  dyd_status st = dyd_literal_value(out, &f->literal);
-  if (st == DYD_OK && f->dyadic) st = scale_two(out, f->two);
-  if (st == DYD_OK && f->rational) {
+/* *at is the offset to blame on failure. */
+static dyd_status numeral_value(mpq_ptr out, size_t *at, const dyd_numeral *n) {
+  *at = n->first;
+  dyd_status st = dyd_literal_value(out, n);
+  if (st == DYD_OK && n->twos) st = scale_two(out, n->two);
+  if (st == DYD_OK && n->below) {
+    dyd_numeral denominator;
     DYD_LOCAL_NUMBERS(mpq, q);
-    *at = f->denominator.first;
-    st = dyd_literal_value(q, &f->denominator);
+    *at = n->below;
+    dyd_literal_scan(&denominator, n->text, n->end, n->below, 0);
+    st = dyd_literal_value(q, &denominator);
     if (st == DYD_OK && !mpq_sgn(q)) st = DYD_E_DOMAIN;
     if (st == DYD_OK) mpq_div(out, out, q);
     if (st == DYD_OK) st = dyd_rational_fits(out);
   }
-  if (f->negative) mpq_neg(out, out);
+  if (n->negative) mpq_neg(out, out);
   return st;
 }
 
@@ -289,24 +177,24 @@ static dyd_status number_value_fail(dyd_error *err, dyd_status st, const char *t
                        (long long)DYD_EXP_LIMIT, (long long)DYD_EXP_LIMIT);
 }
 
-static dyd_status scan_or_fail(dyd_number_form *f, const char *text, size_t length, dyd_error *err) {
-  size_t bad;
-  if (dyd_number_scan(f, &bad, text, length)) return DYD_OK;
-  return dyd_text_fail(err, DYD_E_PARSE, text, bad, "%s; write a number such as -3.25, 1e-3, 22/7, 0x1.8p-3 or 5*2^-20",
-                       bad < length ? "this is not part of a number" : "the number ends too early");
+static dyd_status scan_or_fail(dyd_numeral *n, const char *text, size_t length, unsigned forms, dyd_error *err) {
+  if (dyd_numeral_scan(n, text, length, forms)) return DYD_OK;
+  return dyd_text_fail(err, DYD_E_PARSE, text, n->end,
+                       "%s; write a number such as -3.25, 1e-3, 22/7, 0x1.8p-3 or 5*2^-20",
+                       n->end < length ? "this is not part of a number" : "the number ends too early");
 }
 
-dyd_status dyd_parse_number(mpq_t out, const char *text, size_t length, dyd_error *err) {
-  dyd_number_form f;
-  dyd_status st = scan_or_fail(&f, text, length, err);
+dyd_status dyd_parse_number(mpq_t out, const char *text, size_t length, unsigned forms, dyd_error *err) {
+  dyd_numeral n;
+  dyd_status st = scan_or_fail(&n, text, length, forms, err);
   if (st != DYD_OK) return st;
-  if (!f.rational && !f.dyadic && literal_small_value(out, &f.literal)) {
-    if (f.negative) mpq_neg(out, out);
+  if (!n.below && !n.twos && literal_small_value(out, &n)) {
+    if (n.negative) mpq_neg(out, out);
     return DYD_OK;
   }
   size_t at = 0;
   DYD_LOCAL_NUMBERS(mpq, value);
-  st = form_value(value, &at, &f);
+  st = numeral_value(value, &at, &n);
   if (st == DYD_OK) mpq_swap(out, value);
   return st != DYD_OK ? number_value_fail(err, st, text, at) : DYD_OK;
 }
@@ -326,14 +214,14 @@ static dyd_status half_unit_around(mpq_ptr lo, mpq_ptr hi, mpq_srcptr x, int64_t
 }
 
 /* The short way: 10 m -+ 5 units of 10^(ten - 1). */
-static bool small_measured(mpq_ptr lo, mpq_ptr hi, const dyd_number_form *f) {
-  if (!literal_is_small(&f->literal) || f->literal.digits >= SMALL_DIGITS) return false;
-  int ten = (int)literal_ten(&f->literal) - 1;
+static bool small_measured(mpq_ptr lo, mpq_ptr hi, const dyd_numeral *n) {
+  if (!literal_is_small(n) || n->man >= UINT64_C(100000000000000000)) return false;
+  int ten = (int)literal_ten(n) - 1;
   if (ten < -SMALL_DIGITS) return false;
-  uint64_t m = 10 * small_digits(&f->literal);
+  uint64_t m = 10 * n->man;
   if (!dyd_small_decimal(hi, m + 5, ten) || !dyd_small_decimal(lo, m ? m - 5 : 5, ten)) return false;
   if (!m) mpq_neg(lo, lo);
-  if (f->negative) {
+  if (n->negative) {
     mpq_swap(lo, hi);
     mpq_neg(lo, lo);
     mpq_neg(hi, hi);
@@ -342,16 +230,16 @@ static bool small_measured(mpq_ptr lo, mpq_ptr hi, const dyd_number_form *f) {
 }
 
 dyd_status dyd_parse_measured(mpq_t lo, mpq_t hi, const char *text, size_t length, dyd_error *err) {
-  dyd_number_form f;
-  dyd_status st = scan_or_fail(&f, text, length, err);
+  dyd_numeral n;
+  dyd_status st = scan_or_fail(&n, text, length, DYD_NUMBER_ANY, err);
   if (st != DYD_OK) return st;
-  bool decimal = !f.rational && !f.dyadic && !f.literal.hex;
-  size_t at = f.literal.first;
+  bool decimal = !n.below && !n.twos && !n.hex;
+  size_t at = n.first;
   DYD_LOCAL_ARRAY(mpq_t, value, [3]);
-  if (!decimal || !small_measured(value[0], value[1], &f)) {
-    st = form_value(value[2], &at, &f);
+  if (!decimal || !small_measured(value[0], value[1], &n)) {
+    st = numeral_value(value[2], &at, &n);
     if (st == DYD_OK && decimal) {
-      st = half_unit_around(value[0], value[1], value[2], literal_ten(&f.literal));
+      st = half_unit_around(value[0], value[1], value[2], literal_ten(&n));
     } else if (st == DYD_OK) {
       mpq_set(value[0], value[2]);
       mpq_set(value[1], value[2]);

@@ -6,30 +6,16 @@
 #ifndef DYD_STREAM_NUMBER_H
 #define DYD_STREAM_NUMBER_H
 
-#include <dyadel/dyadic.h>
+#include "dyadic/numeral.h"
 
-/* An unsigned decimal or hexadecimal literal inside a text: digits with at most one point, and an exponent.
- * Its value is (all digits as an integer) * base^-fraction * (10 or 2)^exponent.
- * Invariant: mantissa_end - first = digits (+ 1 for the point); digits >= 1; the text is borrowed. */
-typedef struct dyd_literal {
-  const char *text;
-  size_t first, mantissa_end, end; /* offsets of the first digit, behind the mantissa, behind the literal */
-  size_t digits, fraction;         /* how many digits there are, and number of them after the point */
-  bool hex, integer;               /* integer: decimal digits only, without point or exponent */
-  int64_t exponent;                /* held within +- 2^40 */
-} dyd_literal;
+#include <dyadel/stream.h>
 
-static inline bool dyd_is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
-
-/* Reads the longest literal that starts at text[pos]; false when none does. */
-bool dyd_literal_scan(dyd_literal *out, const char *text, size_t length, size_t pos);
-/* The exact value, canonical. DYD_OK, DYD_E_RANGE or DYD_E_NOMEM (out is then unspecified but valid). */
-dyd_status dyd_literal_value(mpq_ptr out, const dyd_literal *in);
+/* The exact value, but for sign, denominator and "*2^", canonical. DYD_OK, DYD_E_RANGE or DYD_E_NOMEM (out is then
+ * unspecified but valid). */
+dyd_status dyd_literal_value(mpq_ptr out, const dyd_numeral *in);
 /* The value num / den of a short decimal literal, in lowest terms. false (nothing written) where words are too short.
  */
-bool dyd_literal_words(uint64_t *num, uint64_t *den, const dyd_literal *in);
+bool dyd_literal_words(uint64_t *num, uint64_t *den, const dyd_numeral *in);
 /* out = m * 10^ten, canonical, by single words: m <= 10^18, -18 <= ten <= 18. false (out unchanged) where words
  * are too short. */
 bool dyd_small_decimal(mpq_ptr out, uint64_t m, int ten);
@@ -52,10 +38,6 @@ dyd_status dyd_text_unexpected(dyd_error *err, const char *text, size_t length, 
 
 /* Returns true if the text, without blanks around it, is a plain number by its form. Computes no value: O(length). */
 bool dyd_is_plain_number(const char *text, size_t length);
-/* The exact value of such a text; out, initialised by the caller, becomes canonical, and is unchanged on failure.
- * DYD_E_PARSE, DYD_E_DOMAIN (denominator 0), DYD_E_RANGE or DYD_E_NOMEM with column and message in *err.
- * Numbers of up to 18 digits and small exponents need no memory beyond that of out. */
-dyd_status dyd_parse_number(mpq_t out, const char *text, size_t length, dyd_error *err);
 /* Reads a decimal as a rounded measurement: the value minus and plus half a unit of its last digit, so that 47.61
  * gives [47.605,47.615], 12 gives [11.5,12.5] and 1.2e3 gives [1150,1250]. The other plain forms are exact
  * (lo = hi). Errors as dyd_parse_number. */

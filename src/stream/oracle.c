@@ -69,22 +69,10 @@ static bool answer_word_is(const char *line, word w, const char *text) {
   return w.end - w.begin == strlen(text) && memcmp(line + w.begin, text, w.end - w.begin) == 0;
 }
 
-/* A whole number of at most nine digits. */
-static bool read_answer_count(size_t *out, const char *line, word w) {
-  size_t value = 0;
-  if (w.end - w.begin > 9) return false;
-  for (size_t k = w.begin; k < w.end; k++) {
-    if (line[k] < '0' || line[k] > '9') return false;
-    value = 10 * value + (size_t)(line[k] - '0');
-  }
-  *out = value;
-  return true;
-}
-
 static dyd_status read_cost(double *out, const char *line, word w, size_t point, dyd_error *err) {
   char shown[80];
   DYD_LOCAL_NUMBERS(mpq, own);
-  dyd_status st = dyd_parse_number(own, line + w.begin, w.end - w.begin, NULL);
+  dyd_status st = dyd_parse_number(own, line + w.begin, w.end - w.begin, DYD_NUMBER_ANY, NULL);
   *out = st == DYD_OK ? mpq_get_d(own) : 0;
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (*out > 0 && isfinite(*out)) return DYD_OK;
@@ -110,24 +98,25 @@ static dyd_status read_costs(double *cost, size_t count, const char *line, size_
 
 dyd_status dyd_oracle_read_count(size_t *out, double **cost, const char *line, size_t length, dyd_error *err) {
   word w[3];
-  size_t count, words = split_answer(w, 3, line, length);
+  int64_t count;
+  size_t words = split_answer(w, 3, line, length);
   char shown[80];
   const bool costs = words > 2 && answer_word_is(line, w[2], "cost");
-  if ((words != 2 && !costs) || !answer_word_is(line, w[0], "points") || !read_answer_count(&count, line, w[1]) ||
-      count > DYD_MAX_SITES) {
+  if ((words != 2 && !costs) || !answer_word_is(line, w[0], "points") ||
+      !dyd_integer_scan(&count, line + w[1].begin, w[1].end - w[1].begin, 0, 0, DYD_MAX_SITES)) {
     return dyd_fail(err, DYD_E_STREAM,
                     "the first line of the oracle program is %s; print \"points N\", with the number "
                     "of points",
                     dyd_quoted(shown, sizeof shown, line, length));
   }
-  double *own = costs ? dyd_alloc(count < length ? count : length, sizeof *own) : NULL;
+  double *own = costs ? dyd_alloc((size_t)count < length ? (size_t)count : length, sizeof *own) : NULL;
   if (costs && !own) return dyd_fail_nomem(err);
-  dyd_status st = costs ? read_costs(own, count, line, length, w[2], err) : DYD_OK;
+  dyd_status st = costs ? read_costs(own, (size_t)count, line, length, w[2], err) : DYD_OK;
   if (st != DYD_OK) {
     free(own);
     return st;
   }
-  *out = count;
+  *out = (size_t)count;
   *cost = own;
   return DYD_OK;
 }
@@ -138,7 +127,7 @@ static dyd_status read_answer_end(mpq_t out, const char *line, word w, dyd_error
   dyd_error own;
   char shown[80];
   dyd_error_clear(&own);
-  dyd_status st = dyd_parse_number(out, line + w.begin, w.end - w.begin, &own);
+  dyd_status st = dyd_parse_number(out, line + w.begin, w.end - w.begin, DYD_NUMBER_ANY, &own);
   if (st == DYD_OK || st == DYD_E_NOMEM || st == DYD_E_RANGE) {
     return st != DYD_OK ? dyd_fail(err, st, "%s", own.message) : st;
   }

@@ -472,7 +472,7 @@ static dyd_status read_real_coordinate(dyd_real **out, expr_reader *r) {
 
 static dyd_status read_plain_number(dyd_real **out, expr_reader *r) {
   DYD_LOCAL_NUMBERS(mpq, q);
-  dyd_status st = dyd_parse_number(q, r->text, r->length, r->err);
+  dyd_status st = dyd_parse_number(q, r->text, r->length, DYD_NUMBER_ANY, r->err);
   return st == DYD_OK ? plain_fail(r, 0, dyd_real_from_q(out, q)) : st;
 }
 

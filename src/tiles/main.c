@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The command dyadel-tiles: its words, one job, the exit status. */
 #include "base/local.h"
+#include "dyadic/numeral.h"
 #include "tiles/tiles.h"
 
 #include <errno.h>
@@ -64,10 +65,8 @@ static void main_complain(const char *format, ...) {
 /* ---- words ---- */
 
 static bool number_of(size_t *out, const char *word, const char *text, size_t most) {
-  char *end = NULL;
-  errno = 0;
-  unsigned long long n = text ? strtoull(text, &end, 10) : 0;
-  if (text && *text >= '0' && *text <= '9' && !*end && errno == 0 && n >= 1 && n <= most) {
+  int64_t n;
+  if (text && dyd_integer_scan(&n, text, strlen(text), 0, 1, (int64_t)most)) {
     *out = (size_t)n;
     return true;
   }

@@ -20,10 +20,9 @@
 
 enum { MOST_DIGITS = 15, MOST_FIELDS = 4 };
 
-/* mantissa / 10^after; before: its digits left of the point. Those of a longer one are wrong, but too many. */
+/* mantissa / 10^after; before: its digits left of the point. */
 typedef struct text_decimal {
-  int64_t mantissa;
-  long before, after;
+  int64_t mantissa, before, after;
 } text_decimal;
 
 typedef struct text_field {
@@ -47,27 +46,21 @@ typedef struct text_slice {
 /* ---- numbers ---- */
 
 static bool decimal_of(text_decimal *d, const text_field *f) {
-  enum { ROOM = 18 };
-  dyd_literal l;
-  const bool negative = f->length && *f->text == '-';
-  long digits = 0;
+  dyd_numeral n;
   *d = (text_decimal){0};
-  if (!dyd_literal_scan(&l, f->text, f->length, negative || (f->length && *f->text == '+'))) return false;
-  for (size_t k = l.first; k < l.mantissa_end; k++) {
-    if (f->text[k] == '.') continue;
-    digits += digits || f->text[k] != '0';
-    if (digits <= ROOM) d->mantissa = 10 * d->mantissa + (f->text[k] - '0');
-  }
-  if (digits) d->after = (long)((int64_t)l.fraction - l.exponent);
-  d->before = digits > d->after ? digits - d->after : 0;
-  if (negative) d->mantissa = -d->mantissa;
-  return !l.hex && l.end == f->length;
+  if (!dyd_numeral_scan(&n, f->text, f->length, DYD_NUMBER_DECIMAL)) return false;
+  if (!n.few) return d->before = MOST_DIGITS + 1, true; /* too many */
+  if (n.man) d->after = (int64_t)n.fraction - n.exponent;
+  for (uint64_t man = n.man; man; man /= 10) d->before++;
+  d->before = d->before > d->after ? d->before - d->after : 0;
+  d->mantissa = n.negative ? -(int64_t)n.man : (int64_t)n.man;
+  return true;
 }
 
 /* Times 10^after, a whole number of at most MOST_DIGITS digits. */
-static double text_scaled(const text_decimal *d, long after) {
+static double text_scaled(const text_decimal *d, int64_t after) {
   double value = (double)d->mantissa; /* exact, and so is each product */
-  for (long k = d->after; d->mantissa && k < after; k++) value *= 10;
+  for (int64_t k = d->after; d->mantissa && k < after; k++) value *= 10;
   return value;
 }
 

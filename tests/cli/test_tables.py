@@ -100,6 +100,8 @@ TOLD = [
     ('--thousands ,', '1 2\n', 2, '--thousands is about columns'),
     ('--no-header', '1 2\n', 2, '--no-header is about columns'),
     ('--units-row', '1 2\n', 2, '--units-row is about columns'),
+    ('--skip-lines 00000000009', '1 2\n', 1, '-: the file has fewer lines than --skip-lines 00000000009$'),
+    ('--skip-lines -1', '1 2\n', 2, 'give one such as --skip-lines 3$'),
     ('--skip-lines x', '1 2\n', 2, 'give one such as --skip-lines 3$'),
     ('--skip-lines 9', '1 2\n', 1, '-: the file has fewer lines than --skip-lines 9$'),
     ('--columns x,y --no-header', '1,2\n', 2, 'without a header columns have numbers, .* "x": --columns$'),

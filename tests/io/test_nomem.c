@@ -225,17 +225,20 @@ typedef struct seen {
 static dyd_status see_record(void *user, const dyd_record *row, dyd_error *err) {
   seen *s = user;
   size_t used = strlen(s->text), length;
-  int64_t number;
+  mpq_t number;
+  mpq_init(number);
   for (size_t k = 0; k < row->fields; k++) {
     const char *field = dyd_record_field(&length, row, k);
-    if (dyd_record_integer(&number, row, k, -9, 99))
-      used += (size_t)snprintf(s->text + used, sizeof s->text - used, "<%d>", 2 * (int)number);
+    const dyd_status st = dyd_parse_number(number, field, length, DYD_NUMBER_MINUS, err);
+    if (st == DYD_E_NOMEM) return mpq_clear(number), st;
+    if (st == DYD_OK && mpq_cmp_si(number, -9, 1) >= 0 && mpq_cmp_si(number, 99, 1) <= 0)
+      used += (size_t)snprintf(s->text + used, sizeof s->text - used, "<%d>", 2 * (int)mpq_get_d(number));
     else
       used += (size_t)snprintf(s->text + used, sizeof s->text - used, "[%.*s]", (int)length, field);
   }
   assert_null(dyd_record_field(&length, row, row->fields));
   assert_int_equal(length, 0);
-  assert_false(dyd_record_integer(&number, row, row->fields, -9, 99));
+  mpq_clear(number);
   if (s->rows++ < s->most) return DYD_OK;
   dyd_record_place(err, row, s->rows % 2 ? 1 : row->fields);
   return dyd_error_set(err, DYD_E_PARSE, "too many rows");

@@ -164,10 +164,10 @@ static void check_widened(const char *coordinate, bool measured, const char *rad
   mpq_inits(lo, hi, got_lo, got_hi, r, NULL);
   assert_int_equal(dyd_parse_measured(lo, hi, coordinate, strlen(coordinate), NULL), DYD_OK);
   if (!measured) {
-    assert_int_equal(dyd_parse_number(lo, coordinate, strlen(coordinate), NULL), DYD_OK);
+    assert_int_equal(dyd_parse_number(lo, coordinate, strlen(coordinate), DYD_NUMBER_ANY, NULL), DYD_OK);
     mpq_set(hi, lo);
   }
-  if (radius) assert_int_equal(dyd_parse_number(r, radius, strlen(radius), NULL), DYD_OK);
+  if (radius) assert_int_equal(dyd_parse_number(r, radius, strlen(radius), DYD_NUMBER_ANY, NULL), DYD_OK);
   mpq_sub(lo, lo, r);
   mpq_add(hi, hi, r);
   assert_int_equal(dyd_sites_get(&rect, dyd_engine_sites(e), 0), DYD_OK);

@@ -54,7 +54,7 @@ static void test_values(void **state) {
     const value_row *v = &values[i];
     size_t n = strlen(v->text);
     assert_true(dyd_is_plain_number(v->text, n));
-    assert_int_equal(dyd_parse_number(q, v->text, n, NULL), DYD_OK);
+    assert_int_equal(dyd_parse_number(q, v->text, n, DYD_NUMBER_ANY, NULL), DYD_OK);
     assert_rational(q, v->value, v->text);
     if (!v->lo) continue;
     assert_int_equal(dyd_parse_measured(lo, hi, v->text, n, NULL), DYD_OK);
@@ -110,7 +110,7 @@ static void test_bad(void **state) {
     dyd_error err;
     dyd_error_clear(&err);
     mpq_set(q, kept);
-    dyd_status st = dyd_parse_number(q, text, strlen(text), &err);
+    dyd_status st = dyd_parse_number(q, text, strlen(text), DYD_NUMBER_ANY, &err);
     if (st != bads[i].status || err.column != bads[i].column) {
       fail_msg("'%s': status %d column %zu (%s)", text, st, err.column, err.message);
     }
@@ -158,7 +158,7 @@ static void test_random_decimals(void **state) {
   for (size_t n = test_cases(100000); n > 0; n--) {
     char text[128];
     random_decimal(text, want, unit, &r);
-    assert_int_equal(dyd_parse_number(q, text, strlen(text), NULL), DYD_OK);
+    assert_int_equal(dyd_parse_number(q, text, strlen(text), DYD_NUMBER_ANY, NULL), DYD_OK);
     if (!mpq_equal(q, want)) fail_msg("%s", text);
     mpq_canonicalize(want);
     assert_true(mpz_cmp(mpq_denref(q), mpq_denref(want)) == 0);
@@ -179,7 +179,8 @@ static void test_speed(void **state) {
   mpq_t q;
   mpq_init(q);
   double start = seconds();
-  for (size_t i = 0; i < count; i++) assert_true(!dyd_parse_number(q, texts[i & 3], strlen(texts[i & 3]), NULL));
+  for (size_t i = 0; i < count; i++)
+    assert_true(!dyd_parse_number(q, texts[i & 3], strlen(texts[i & 3]), DYD_NUMBER_ANY, NULL));
   double used = seconds() - start;
   fprintf(stderr, "# one plain decimal: %.0f ns\n", used / (double)count * 1e9);
   assert_true(used < 10);

@@ -136,6 +136,8 @@ static const struct {
   const char *says;
 } firsts[] = {
     {"points 3", DYD_OK, 3, {0}, ""},
+    {"points 00000000000000000003", DYD_OK, 3, {0}, ""},
+    {"points +3", DYD_E_STREAM, 0, {0}, "print \"points N\""},
     {" points\t0 ", DYD_OK, 0, {0}, ""},
     {"points 3 cost 1 1/2\t6e1 ", DYD_OK, 3, {1, 0.5, 60}, ""},
     {"points 0 cost", DYD_OK, 0, {0}, ""},

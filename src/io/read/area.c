@@ -53,7 +53,7 @@ static dyd_status area_number(double *out, area_text *t) {
   while (t->at + length < t->end && !is_any_of(t->at[length], " \t\r\n,()[]\"")) length++;
   DYD_LOCAL_NUMBERS(mpq, q);
   DYD_LOCAL_FLOATS(53, r);
-  dyd_status st = length ? dyd_parse_number(q, t->at, length, &why) : DYD_E_PARSE;
+  dyd_status st = length ? dyd_parse_number(q, t->at, length, DYD_NUMBER_ANY, &why) : DYD_E_PARSE;
   mpfr_set_q(r, q, MPFR_RNDN);
   *out = mpfr_get_d(r, MPFR_RNDN);
   if (st == DYD_OK && !isfinite(*out)) st = DYD_E_PARSE;

@@ -30,56 +30,17 @@
 static const double power_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                       1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-typedef struct cursor {
-  const char *at, *end;
-} cursor;
-
-static bool plain_take(cursor *c, char wanted) {
-  if (c->at == c->end || *c->at != wanted) return false;
-  c->at++;
-  return true;
-}
-
-/* Digits appended to *man; the number of digits read, or -1 when there are more than 18 but for zeros in front. */
-static int plain_digits(int64_t *man, cursor *c) {
-  const char *begin = c->at;
-  int64_t m = *man;
-  for (; c->at < c->end && *c->at >= '0' && *c->at <= '9'; c->at++) {
-    if (m >= INT64_C(100000000000000000) || c->at - begin > 1000) return -1;
-    m = m * 10 + (*c->at - '0');
-  }
-  *man = m;
-  return (int)(c->at - begin);
-}
-
-/* One of the letters, sign, one to four digits; nothing is right, too. */
-static bool plain_exponent(int *exp, cursor *c, char small, char large) {
-  if (!plain_take(c, small) && !plain_take(c, large)) return true;
-  bool negative = plain_take(c, '-');
-  if (!negative) plain_take(c, '+');
-  int64_t value = 0;
-  if (plain_digits(&value, c) < 1 || value > 9999) return false;
-  *exp += (int)(negative ? -value : value);
+/* false: it is none of this size. */
+static bool plain_of_numeral(dyd_plain *out, const dyd_numeral *n) {
+  const int64_t exp = n->exponent - (int64_t)n->fraction;
+  if (!n->few || exp < -60 || exp > 60) return false;
+  *out = (dyd_plain){n->negative ? -(int64_t)n->man : (int64_t)n->man, (int)exp};
   return true;
 }
 
 bool dyd_plain_scan(dyd_plain *out, const char *text, size_t length) {
-  cursor c = {text, text + length};
-  dyd_plain p = {0, 0};
-  bool negative = plain_take(&c, '-');
-  if (!negative) plain_take(&c, '+');
-  int whole = plain_digits(&p.man, &c), fraction = 0;
-  if (whole < 0) return false;
-  if (plain_take(&c, '.')) {
-    fraction = plain_digits(&p.man, &c);
-    if (fraction < 0) return false;
-    p.exp = -fraction;
-  }
-  if (whole + fraction == 0 || !plain_exponent(&p.exp, &c, 'e', 'E') || c.at != c.end) return false;
-  if (p.exp < -60 || p.exp > 60) return false;
-  if (negative) p.man = -p.man;
-  *out = p;
-  return true;
+  dyd_numeral n;
+  return dyd_numeral_scan(&n, text, length, DYD_NUMBER_DECIMAL) && plain_of_numeral(out, &n);
 }
 
 bool dyd_plain_get_exact(double *out, dyd_plain p) {
@@ -131,43 +92,14 @@ bool dyd_plain_get_words(dyd_words *out, dyd_plain p) {
   return true;
 }
 
-/* ---- hexadecimal floats ---- */
-
-/* One more than the value of a digit; 0: none. */
-static const unsigned char hex_digit[256] = {
-    ['0'] = 1,  ['1'] = 2,  ['2'] = 3,  ['3'] = 4,  ['4'] = 5,  ['5'] = 6,  ['6'] = 7,  ['7'] = 8,
-    ['8'] = 9,  ['9'] = 10, ['a'] = 11, ['b'] = 12, ['c'] = 13, ['d'] = 14, ['e'] = 15, ['f'] = 16,
-    ['A'] = 11, ['B'] = 12, ['C'] = 13, ['D'] = 14, ['E'] = 15, ['F'] = 16};
-
-/* Digits appended to *man; how many, or -1 when there are more than 15 but for zeros in front. */
-static int plain_hex_digits(uint64_t *man, cursor *c) {
-  const char *begin = c->at;
-  uint64_t m = *man;
-  for (unsigned digit; c->at < c->end && (digit = hex_digit[(unsigned char)*c->at]); c->at++) {
-    if (m >> 56 || c->at - begin > 1000) return -1;
-    m = m * 16 + (digit - 1);
-  }
-  *man = m;
-  return (int)(c->at - begin);
-}
-
-bool dyd_plain_scan_hex(double *out, const char *text, size_t length) {
-  cursor c = {text, text + length};
-  uint64_t man = 0;
-  bool negative = plain_take(&c, '-');
-  if (!negative) plain_take(&c, '+');
-  if (!plain_take(&c, '0') || (!plain_take(&c, 'x') && !plain_take(&c, 'X'))) return false;
-  int whole = plain_hex_digits(&man, &c), fraction = plain_take(&c, '.') ? plain_hex_digits(&man, &c) : 0,
-      exp = -4 * fraction;
-  if (whole < 0 || fraction < 0 || whole + fraction == 0 || !plain_exponent(&exp, &c, 'p', 'P') || c.at != c.end)
-    return false;
-  if (man == 0) exp = 0;
-  int twos = man ? __builtin_ctzll(man) : 0;
-  man >>= twos;
-  exp += twos;
-  if (man >> 53 || exp < -1074 || exp > 900) return false;
-  double size = ldexp((double)man, exp);
-  *out = negative && man ? -size : size;
+/* Of a hexadecimal float; false where it is no double. */
+static bool binary_of(double *out, const dyd_numeral *n) {
+  const int twos = n->man ? __builtin_ctzll(n->man) : 0;
+  const int64_t exp = n->man ? n->exponent - 4 * (int64_t)n->fraction + twos : 0;
+  const uint64_t man = n->man >> twos;
+  if (!n->few || man >> 53 || exp < -1074 || exp > 900) return false;
+  const double size = ldexp((double)man, (int)exp);
+  *out = n->negative && man ? -size : size;
   return true;
 }
 
@@ -246,26 +178,19 @@ void dyd_manner_set_radius(dyd_manner *m, const mpq_t q) {
   m->plain = plain_set_q(&m->decimal, q);
 }
 
-/* Returns true if the text looks like a hexadecimal float. */
-static bool looks_hex(const dyd_span *span) {
-  for (size_t k = 1; k < 3 && k < span->length; k++)
-    if (span->text[k] == 'x' || span->text[k] == 'X') return true;
-  return false;
-}
-
-static bool coordinate_hex(dyd_coordinate *out, const dyd_span *span, const dyd_manner *manner) {
-  double value;
-  if (manner->measured || manner->widen || !dyd_plain_scan_hex(&value, span->text, span->length)) return false;
-  *out = (dyd_coordinate){.kind = DYD_COORDINATE_BINARY, .lo = value, .hi = value};
-  return true;
-}
-
 static bool coordinate_plain(dyd_coordinate *out, const dyd_span *span, const dyd_manner *manner) {
+  dyd_numeral n;
   dyd_plain plain;
-  if (looks_hex(span)) return coordinate_hex(out, span, manner);
-  if (!dyd_plain_scan(&plain, span->text, span->length)) return false;
-  if (manner->measured || manner->widen) return coordinate_span(out, plain, manner);
   double value;
+  const bool wide = manner->measured || manner->widen;
+  if (!dyd_numeral_scan(&n, span->text, span->length, DYD_NUMBER_DECIMAL | DYD_NUMBER_HEX)) return false;
+  if (n.hex) {
+    if (wide || !binary_of(&value, &n)) return false;
+    *out = (dyd_coordinate){.kind = DYD_COORDINATE_BINARY, .lo = value, .hi = value};
+    return true;
+  }
+  if (!plain_of_numeral(&plain, &n)) return false;
+  if (wide) return coordinate_span(out, plain, manner);
   if (dyd_plain_get_exact(&value, plain))
     *out = (dyd_coordinate){.kind = DYD_COORDINATE_DOUBLE, .plain = plain, .lo = value, .hi = value};
   else

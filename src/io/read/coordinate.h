@@ -7,7 +7,7 @@
 #include "rect/sites_table.h"
 #include <dyadel/stream.h>
 
-/* ---- plain decimals and hexadecimal floats, which are read without big numbers ---- */
+/* ---- plain decimals, which are read without big numbers ---- */
 
 /* The number man * 10^exp. Invariant: |man| < 10^18, -60 <= exp <= 60. */
 typedef struct dyd_plain {
@@ -24,8 +24,6 @@ bool dyd_plain_get_exact(double *out, dyd_plain p);
 bool dyd_plain_get_rounded(double *out, dyd_plain p, dyd_round dir);
 /* The number in single words; false where they are too short. */
 bool dyd_plain_get_words(dyd_words *out, dyd_plain p);
-/* Reads the whole text, a hexadecimal float; false when it is none, or no double (it may still be a number). */
-bool dyd_plain_scan_hex(double *out, const char *text, size_t length);
 /* The exact value, canonical; q is initialised by the caller. */
 void dyd_plain_get_q(mpq_t q, dyd_plain p);
 /* The ends of the interval from a decimal to upper * 10^from.exp, rounded outward to doubles; false where

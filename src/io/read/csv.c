@@ -130,23 +130,26 @@ static dyd_status fail_missing(const dyd_csv *csv, const dyd_csv_want *want, dyd
 /* By number; a name that is the same digits must not be meant. */
 static dyd_status find_numbered(size_t *out, const dyd_csv *csv, const dyd_csv_want *want, dyd_error *err) {
   char message[DYD_MESSAGE_SIZE];
-  size_t first = 0, last = 0, number = strlen(want->name) < 9 ? (size_t)atol(want->name) : SIZE_MAX;
+  size_t first = 0, last = 0;
+  int64_t number = 0;
+  const bool found = dyd_integer_scan(&number, want->name, strlen(want->name), 0, 1, (int64_t)csv->fields);
   bool named = !csv->headless && count_named(&first, &last, csv, want->name, false);
-  if (named && first + 1 != number) {
+  if (named && (!found || first + 1 != (size_t)number)) {
     snprintf(message, sizeof message,
              "%s is the name of column %zu: for that one, put the name into quotes: `%s` '\"%s\"'; for column %s, give "
              "its name",
              want->name, first + 1, want->option, want->name, want->name);
     return header_fail(csv, first, err, message);
   }
-  if (number >= 1 && number <= csv->fields) return *out = number - 1, DYD_OK;
+  if (found) return *out = (size_t)number - 1, DYD_OK;
   snprintf(message, sizeof message, "there is no column %.20s; the %s has %zu, counted from 1", want->name,
            csv->headless ? "first line" : "header", csv->fields);
   return header_fail(csv, 0, err, message);
 }
 
 static bool is_numbered(const dyd_csv_want *want) {
-  return !want->quoted && want->name[0] && !want->name[strspn(want->name, "0123456789")];
+  dyd_numeral n;
+  return !want->quoted && dyd_numeral_scan(&n, want->name, strlen(want->name), 0);
 }
 
 static dyd_status find_column(size_t *out, const dyd_csv *csv, const dyd_csv_want *want, dyd_error *err) {
@@ -518,19 +521,6 @@ const char *dyd_record_field(size_t *length, const dyd_record *row, size_t k) {
   const dyd_span *field = row->field;
   *length = k < row->fields ? field[k].length : 0;
   return k < row->fields ? field[k].text : NULL;
-}
-
-bool dyd_record_integer(int64_t *out, const dyd_record *row, size_t k, int64_t least, int64_t most) {
-  size_t length, at = 0;
-  const char *text = dyd_record_field(&length, row, k);
-  const bool negative = length > 0 && *text == '-';
-  int64_t value = 0;
-  for (at = negative; at < length && text[at] >= '0' && text[at] <= '9'; at++)
-    if (__builtin_mul_overflow(value, 10, &value) ||
-        __builtin_add_overflow(value, negative ? '0' - text[at] : text[at] - '0', &value))
-      return false;
-  *out = value;
-  return at == length && at > negative && value >= least && value <= most;
 }
 
 void dyd_record_place(dyd_error *err, const dyd_record *row, size_t k) {

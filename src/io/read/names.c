@@ -2,9 +2,9 @@
 /* What the names of columns say: which hold longitude and latitude, in which order, and in which unit; and cells that
  * are no degrees by themselves, as a column beside them says the rest. */
 #include "base/error.h"
+#include "dyadic/numeral.h"
 #include "io/read/csv.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 static bool is_latin(char c) {
@@ -227,7 +227,8 @@ void dyd_zone_see(char seen[2][4], const dyd_span *f) {
   size_t used = 0;
   for (size_t k = 0; k < f->length && f->length <= 4; k++)
     if (f->text[k] != ' ' && used < 3) zone[used++] = f->text[k];
-  const int number = atoi(zone);
-  if (number < 1 || number > 60 || used > strspn(zone, "0123456789") + 1) return;
-  if (!seen[0][0] || number != atoi(seen[0])) memcpy(seen[seen[0][0] != 0], zone, sizeof zone);
+  dyd_numeral now, before;
+  if (!dyd_literal_scan(&now, zone, used, 0, 0) || now.man < 1 || now.man > 60 || used > now.end + 1) return;
+  if (!dyd_literal_scan(&before, seen[0], strlen(seen[0]), 0, 0) || now.man != before.man)
+    memcpy(seen[seen[0][0] != 0], zone, sizeof zone);
 }

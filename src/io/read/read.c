@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/local.h"
+#include "dyadic/numeral.h"
 #include "engine/labels.h"
 #include "engine/points.h"
 #include "io/read/cell.h"
@@ -808,9 +809,10 @@ static dyd_status skip_lines(dyd_text *text, const char *many, dyd_error *err) {
   dyd_text_line line;
   dyd_status st = DYD_OK;
   if (!many) return DYD_OK;
-  if (!*many || many[strspn(many, "0123456789")] || strlen(many) > 9)
+  int64_t left;
+  if (!dyd_integer_scan(&left, many, strlen(many), 0, 0, 999999999))
     return dyd_fail(err, DYD_E_ARG, "\"%.40s\" is not a number of lines; give one such as `skip_lines` 3", many);
-  for (long left = atol(many); left > 0 && st == DYD_OK; left--) {
+  for (; left > 0 && st == DYD_OK; left--) {
     st = dyd_text_next(&line, text, err);
     if (st == DYD_OK && !line.text)
       return dyd_fail(err, DYD_E_PARSE, "the file has fewer lines than `skip_lines` %s", many);
