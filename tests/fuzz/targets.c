@@ -3,6 +3,7 @@
  * rest is the business of the invariants of the armed library and of the sanitizers. */
 #define _GNU_SOURCE /* fmemopen */
 #include "targets.h"
+#include "stream/number.h"
 #include "stream/real.h"
 
 #include <dyadel/dyadel.h>
@@ -71,6 +72,7 @@ void fuzz_wkt(const uint8_t *data, size_t size);
 void fuzz_degrees(const uint8_t *data, size_t size);
 void fuzz_packed(const uint8_t *data, size_t size);
 void fuzz_area(const uint8_t *data, size_t size);
+void fuzz_number(const uint8_t *data, size_t size);
 void fuzz_expression(const uint8_t *data, size_t size);
 void fuzz_trace(const uint8_t *data, size_t size);
 void fuzz_certificate(const uint8_t *data, size_t size);
@@ -176,6 +178,48 @@ void fuzz_packed(const uint8_t *data, size_t size) {
   dyd_engine_free(e);
   fclose(in);
   free(copy);
+}
+
+/* What a dyadic's text and a whole number's are must be what a number's is. */
+static void same_number(mpq_t want, dyd_status st, const char *text, size_t size) {
+  dyd_dyadic x;
+  int64_t whole;
+  mpq_t q;
+  mpq_init(q);
+  dyd_dyadic_init(&x);
+  if (!memchr(text, 0, size) && !memchr(text, '/', size) && dyd_dyadic_set_str(&x, text, NULL) == DYD_OK) {
+    dyd_dyadic_get_q(q, &x);
+    MUST(st == DYD_E_RANGE || (st == DYD_OK && mpq_equal(q, want)));
+  }
+  if (dyd_integer_scan(&whole, text, size, DYD_NUMBER_SIGNS, INT64_MIN, INT64_MAX))
+    MUST(st == DYD_OK && mpq_cmp_si(want, whole, 1) == 0);
+  dyd_dyadic_clear(&x);
+  mpq_clear(q);
+}
+
+/* One number in any forms, which are the last two bytes: fewer forms take fewer texts, and mean the same. */
+void fuzz_number(const uint8_t *data, size_t size) {
+  if (size < 2) return;
+  const unsigned forms = data[size - 1] | (data[size - 2] & 1u) << 8;
+  char *text = malloc(size - 1);
+  mpq_t any, some, lo, hi;
+  dyd_error err;
+  MUST(text);
+  memcpy(text, data, size - 2);
+  text[size - 2] = 0;
+  mpq_inits(any, some, lo, hi, NULL);
+  const dyd_status st = dyd_parse_number(any, text, size - 2, DYD_NUMBER_ANY, &err);
+  must_tell(st, &err);
+  MUST(st == DYD_OK || err.column <= size - 1);
+  MUST((st != DYD_E_PARSE) == dyd_is_plain_number(text, size - 2));
+  const dyd_status less = dyd_parse_number(some, text, size - 2, forms, &err);
+  must_tell(less, &err);
+  MUST(less == DYD_E_PARSE || (less == st && (st != DYD_OK || mpq_equal(any, some))));
+  if (dyd_parse_measured(lo, hi, text, size - 2, NULL) == DYD_OK)
+    MUST(st == DYD_OK && mpq_cmp(lo, any) <= 0 && mpq_cmp(any, hi) <= 0);
+  same_number(any, st, text, size - 2);
+  mpq_clears(any, some, lo, hi, NULL);
+  free(text);
 }
 
 /* One coordinate: an exact number, an interval, or the ordinate of a point that is narrowed. */
