@@ -145,7 +145,7 @@ static void need_exact(dyd_caps *c, dyd_cap *p) {
 }
 
 bool dyd_caps_begin(dyd_caps *c, const dyd_disc *i, const dyd_disc *j, bool legal) {
-  c->count = 0;
+  c->count = c->first = 0;
   c->i = i;
   c->legal = legal;
   return dyd_caps_add(c, j, UINT32_MAX);
@@ -230,13 +230,13 @@ static bool is_uncovered(dyd_caps *c, size_t e, int turn, const dyd_direction *u
 
 bool dyd_caps_uncovered(dyd_direction *u, dyd_caps *c) {
   bool any = false;
-  for (size_t e = 0; e < c->count; e++) {
+  for (size_t e = c->first; e < c->count; e++) {
     if (is_empty(c, &c->item[e])) continue;
     any = true;
     for (int turn = -1; turn <= 1; turn += 2) {
       *u = cap_end(c, &c->item[e], turn);
       if (!is_uncovered(c, e, turn, u)) continue;
-      c->by[0] = c->by[1] = e;
+      c->by[0] = c->by[1] = c->first = e;
       return true;
     }
   }

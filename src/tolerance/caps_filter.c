@@ -105,5 +105,5 @@ int dyd_filter_cap_side(const dyd_direction *u, const dyd_cap *k) {
 
 dyd_direction dyd_filter_between(const dyd_direction end[2]) {
   double x = end[0].x + end[1].x, y = end[0].y + end[1].y, d = hypot(x, y);
-  return (dyd_direction){x / d, y / d, HUGE_VAL};
+  return (dyd_direction){x / d, y / d, MORE * ((end[0].off + end[1].off) / d + LAST)};
 }

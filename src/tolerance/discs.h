@@ -14,6 +14,7 @@
 #define DYD_TOLERANCE_DISCS_H
 
 #include "predicate/interval_filter.h"
+#include "skeleton/rects_filter.h"
 
 #include <dyadel/delaunay.h>
 #include <gmp.h>
@@ -65,6 +66,7 @@ typedef struct dyd_caps {
   mpq_t qx, qy, rho, n;
   dyd_cap *item;
   size_t count, made, cap;
+  size_t first; /* the caps before it have no uncovered end */
   size_t by[2]; /* whose ends the direction found is between, or at */
   mpq_t a, b, s, t;
 } dyd_caps;
@@ -107,7 +109,9 @@ typedef struct dyd_disc_work {
   dyd_disc *disc;       /* by vertex */
   double (*about)[3];   /* x, y, r of these in doubles */
   const double *weight; /* by vertex: radii are weight[v] * now; NULL: those of `about` */
-  double now;
+  double now, heaviest; /* the largest weight, or 0 */
+  const dyd_tree *tree; /* of boxes; radii by weights reach out of them, others do not but for roundings */
+  unsigned most_bits;   /* of circles where doubles place none; 0: unknown then */
   dyd_caps caps;
   uint32_t i, j; /* vertices, the smaller disc first */
   uint32_t *seen;
@@ -129,21 +133,11 @@ dyd_status dyd_discs_make(dyd_disc_work *w, dyd_error *err);
 void dyd_discs_clear(dyd_disc_work *w);
 /* Includes v from now on; false: it is i, j or seen already, or memory is exhausted. */
 bool dyd_discs_see(dyd_disc_work *w, uint32_t v);
-/* The caps of all discs seen. false: legal, and one of them meets i or j, so that none is a witness. A disc that meets
- * i or j blocks nothing. */
-bool dyd_discs_load(dyd_disc_work *w, bool legal);
-
-/* discs_filter.c. A circle in doubles, or, with `line`, the half-plane beyond height along (x, y). clear: how far
- * others have to keep from it, beyond what distances are off by. */
-typedef struct dyd_circle_d {
-  dyd_disc_work *w;
-  bool legal, line;
-  double x, y, radius, height, clear;
-} dyd_circle_d;
-
-double dyd_filter_radius(const dyd_disc_work *w, uint32_t v);
-double dyd_filter_distance(const dyd_circle_d *c, uint32_t v);
-/* Returns true if disc v is outside for certain (legal), or not inside for certain. */
-bool dyd_filter_keeps_clear(const dyd_circle_d *c, uint32_t v);
+/* Makes `now` what weights are multiplied by, for the pair and all seen. */
+void dyd_discs_weigh(dyd_disc_work *w, double now);
+/* The search for the sites that bind [DISC-1] [TOL-8]. Returns whether the pair is legal, or, without `legal`,
+ * possible; the discs that show it are seen afterwards, but for far ones. DYD_UNKNOWN: no circle was precise enough, or
+ * memory is exhausted (w->failed). */
+dyd_truth dyd_discs_ask(dyd_disc_work *w, bool legal);
 
 #endif

@@ -1,12 +1,17 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Statuses of discs [DISC-1]: what squares leave indeterminate is decided for the discs in them.
+/* Statuses of discs [DISC-1]: what squares leave indeterminate is decided for the discs in them. The search for the
+ * sites that bind is that of tolerances with weights, too [TOL-8].
  *
- * The discs that matter for a pair are found by searching the squares about one circle after another. Illegal is proved
- * by caps of finitely many sites, exactly; of those in a circle's way the one is taken whose cap reaches highest in its
- * direction, so that few are needed. Legal is proved by a witness: a centre of doubles, checked against every disc
- * whose square comes as near as the farther of both discs. |c - p| and the sums with radii are within ROOM = 2^-48 of
- * all sizes met (a few roundings each); closer distances are compared in rationals, with a centre as precise as it
- * takes, up to MOST_BITS of its size. */
+ * Whether a pair is legal, or possible, for some of the sites, those seen, is decided exactly by caps of directions.
+ * For all sites: what those seen refute is refuted by all; what they allow is allowed by all when all others keep clear
+ * of a circle of theirs, which doubles check: c = p_i + u / (2 h) with a direction u that is off by at most `turn`, so
+ * c by `doubt`; distances are off by ROOM of all sizes (a few roundings each). A site that may not keep clear is seen
+ * from then on. So doubles decide only far sites.
+ *
+ * h = (u.J -+ delta) / n, n = J^2 - delta^2, delta = R_j - R_i: its relative error is at most (turn |J| + 2^-49 (|J| +
+ * delta)) / |u.J -+ delta| + 2^-48 (J^2 + delta^2) / n, and that of c - p_i twice this, while it is below 1/4, plus
+ * turn. Where h is that small, the circle is a line but for a bulge of at most J^2 / (8 |c|) between the two discs.
+ * Where n is too small for both, a witness in rationals is made as precise as it takes, up to MOST_BITS of its size. */
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/flag.h"
@@ -25,13 +30,13 @@
 #include <math.h>
 
 #define ROOM 0x1p-48
-#define FARTHEST 0x1p500
+#define TURN 0x1p-38 /* directions between two that are less than 2^-9 from opposite are not used */
 #define INSIDE 0x1p-46
 #define ROOT_HALF 0x1.6a09e667f3bccp-1 /* below it */
 enum {
   FIRST_SEEN = 10,
-  MOST_SMALLER = 10,
-  MOST_ROUNDS = 400,
+  MOST_NEW = 6,
+  MOST_SEEN = 400,
   LEAST_BITS = 128,
   MOST_BITS = 8192,
   MOST_EXPONENT = 240,
@@ -120,11 +125,28 @@ static bool is_seen(const dyd_disc_work *w, uint32_t v) {
   return k < w->count || v == w->i || v == w->j;
 }
 
+/* Where radii are weights times `now`: that of v. */
+static void weigh(dyd_disc_work *w, uint32_t v) {
+  if (!w->weight) return;
+  mpq_set_d(w->disc[v].r, w->weight[v]);
+  mpq_set_d(w->caps.t, w->now);
+  mpq_mul(w->disc[v].r, w->disc[v].r, w->caps.t);
+}
+
+void dyd_discs_weigh(dyd_disc_work *w, double now) {
+  w->now = now;
+  weigh(w, w->i);
+  weigh(w, w->j);
+  for (size_t k = 0; k < w->count; k++) weigh(w, w->seen[k]);
+}
+
 bool dyd_discs_see(dyd_disc_work *w, uint32_t v) {
   if (is_seen(w, v)) return false;
   if (!DYD_GROW(w->seen, w->cap, w->count + 1)) w->failed = true;
-  if (!w->failed) w->seen[w->count++] = v;
-  return !w->failed;
+  if (w->failed) return false;
+  weigh(w, v);
+  w->seen[w->count++] = v;
+  return true;
 }
 
 static void see_neighbour(void *context, uint32_t v, uint32_t w, dyd_pair_status status) {
@@ -133,186 +155,150 @@ static void see_neighbour(void *context, uint32_t v, uint32_t w, dyd_pair_status
   if (d->count < FIRST_SEEN) dyd_discs_see(d, w);
 }
 
-double dyd_filter_radius(const dyd_disc_work *w, uint32_t v) {
+static double radius_d(const dyd_disc_work *w, uint32_t v) {
   return w->weight ? w->weight[v] * w->now : w->about[v][2];
 }
 
+/* A circle in doubles, or, with `line`, the half-plane beyond height along (x, y). clear: how far others have to keep
+ * from it, beyond what distances are off by. */
+typedef struct circle_trial {
+  dyd_disc_work *w;
+  bool legal, line;
+  double x, y, radius, height, clear;
+} circle_trial;
+
 static double size_d(const dyd_disc_work *w, uint32_t v) {
-  return fabs(w->about[v][0]) + fabs(w->about[v][1]) + dyd_filter_radius(w, v);
+  return fabs(w->about[v][0]) + fabs(w->about[v][1]) + radius_d(w, v);
 }
 
-double dyd_filter_distance(const dyd_circle_d *c, uint32_t v) {
+static double distance_d(const circle_trial *c, uint32_t v) {
   return hypot(c->w->about[v][0] - c->x, c->w->about[v][1] - c->y);
 }
 
 /* How much all is off by, with v. */
-static double room_d(const dyd_circle_d *c, uint32_t v) {
+static double room_d(const circle_trial *c, uint32_t v) {
   return ROOM * (size_d(c->w, v) + (c->line ? fabs(c->height) : fabs(c->x) + fabs(c->y) + c->radius)) + c->clear;
 }
 
-bool dyd_filter_keeps_clear(const dyd_circle_d *c, uint32_t v) {
-  double r = dyd_filter_radius(c->w, v), room = room_d(c, v);
+/* Returns true if disc v is outside for certain (legal), or not inside for certain. */
+static bool keeps_clear(const circle_trial *c, uint32_t v) {
+  double r = radius_d(c->w, v), room = room_d(c, v);
   if (c->line) return c->x * c->w->about[v][0] + c->y * c->w->about[v][1] + (c->legal ? r : -r) < c->height - room;
-  return dyd_filter_distance(c, v) + (c->legal ? -r : r) > c->radius + room;
+  return distance_d(c, v) + (c->legal ? -r : r) > c->radius + room;
 }
-
-/* The circle of direction u, about; reach: squares that come so near are visited. worst: of those in the way that are
- * not seen yet, the highest found so far (height_d), or DYD_NONE. */
-typedef struct circle_trial {
-  dyd_circle_d at;
-  dyd_direction u;
-  double reach, highest;
-  bool good;
-  uint32_t worst;
-} circle_trial;
-
-/* h of the circle of direction u that v just keeps from: discs.h. A disc that meets i rules all circles out, or none.
- */
-static double height_d(const circle_trial *c, uint32_t v) {
-  const double *i = c->at.w->about[c->at.w->i], *k = c->at.w->about[v];
-  double x = k[0] - i[0], y = k[1] - i[1], r = k[2] + i[2], n = x * x + y * y - r * r, along = c->u.x * x + c->u.y * y;
-  if (!(n > 0)) return c->at.legal ? HUGE_VAL : -HUGE_VAL;
-  return (c->at.legal ? along + r : along - r) / n;
-}
-
-/* The visitor of trees: continues unless v is higher than the circle, and than the worst so far. */
-static bool keep_worst(void *context, uint32_t v) {
-  circle_trial *c = context;
-  double height = is_seen(c->at.w, v) ? -HUGE_VAL : height_d(c, v);
-  if (!(height > c->highest)) return true;
-  c->worst = v;
-  c->highest = height;
-  return false;
-}
-
-/* legal: v must be outside for certain; possible: v blocks when its disc is inside, about. */
-static bool meet_square(void *context, uint32_t v) {
-  circle_trial *c = context;
-  if (v == c->at.w->i || v == c->at.w->j || dyd_filter_keeps_clear(&c->at, v)) return true;
-  c->good = false;
-  return c->highest < HUGE_VAL && keep_worst(c, v);
-}
-
-/* ---- where doubles do not decide ---- */
-
-/* A circle in rationals. about: the same in doubles; clear: no disc is in its way; one: the first one in its way ends
- * the search. */
-typedef struct circle_q {
-  dyd_disc_work *w;
-  dyd_circle_d about;
-  dyd_disc disc;
-  bool one, clear;
-} circle_q;
-
-/* v is in the way unless its disc is outside. */
-static bool meet_square_exactly(void *context, uint32_t v) {
-  circle_q *c = context;
-  const dyd_disc *k = &c->w->disc[v];
-  if (v == c->w->i || v == c->w->j) return true;
-  if (dyd_filter_keeps_clear(&c->about, v) || !dyd_discs_meet(k, &c->disc)) return true;
-  c->clear = false;
-  if (!c->one) dyd_discs_see(c->w, v);
-  return !c->one && !c->w->failed;
-}
-
-/* Visits the squares that come as near as the circle, if doubles hold it. */
-static void visit_exactly(circle_q *c) {
-  const dyd_disc *d = &c->disc;
-  double x = mpq_get_d(d->x), y = mpq_get_d(d->y), r = mpq_get_d(d->r), reach = r + ROOM * (fabs(x) + fabs(y) + r);
-  const dyd_bbox at = {{x, x, y, y}};
-  double radius2 = reach * reach * (1 + ROOM);
-  if (!(reach < FARTHEST)) return;
-  c->about = (dyd_circle_d){.w = c->w, .legal = true, .x = x, .y = y, .radius = r};
-  c->clear = true;
-  dyd_tree_near(&c->w->pd->sk.rects.tree, &at, &radius2, meet_square_exactly, c);
-}
-
-/* Returns true if the circle of the direction found is a witness. Sees the discs in its way. If all of these were seen,
- * their caps hold the direction, so the circle was not precise enough. */
-static bool circle_is_witness(dyd_disc_work *w) {
-  circle_q c = {.w = w};
-  size_t had = w->count;
-  dyd_disc_init(&c.disc);
-  for (unsigned bits = LEAST_BITS; bits <= MOST_BITS && w->count == had && !w->failed && !c.clear; bits *= 4)
-    if (dyd_caps_circle(&c.disc, &w->caps, bits)) visit_exactly(&c);
-  dyd_disc_clear(&c.disc);
-  return c.clear;
-}
-
-/* The circle of direction u: legal, the discs i and j just inside; possible, just meeting it. */
-static bool place_circle_of(circle_trial *c, dyd_disc_work *w, dyd_direction u, bool legal) {
-  const double *i = w->about[w->i], *j = w->about[w->j];
-  double jx = j[0] - i[0], jy = j[1] - i[1], delta = j[2] - i[2], n = jx * jx + jy * jy - delta * delta;
-  double h = (u.x * jx + u.y * jy + (legal ? -delta : delta)) / n;
-  *c = (circle_trial){.u = u, .worst = DYD_NONE, .highest = h > 0 ? h * (1 - ROOM) : 0};
-  c->at = (dyd_circle_d){.w = w, .x = i[0] + u.x / (2 * h), .y = i[1] + u.y / (2 * h), .legal = legal};
-  double a = dyd_filter_distance(&c->at, w->i), ri = i[2], b = dyd_filter_distance(&c->at, w->j), rj = j[2];
-  c->at.radius = legal ? fmax(a + ri, b + rj) : fmax(a - ri, b - rj);
-  double room = room_d(&c->at, w->i) + room_d(&c->at, w->j);
-  c->at.radius += legal ? room : 0;
-  c->reach = c->at.radius + 2 * room;
-  c->good = h > 0 && c->reach < FARTHEST;
-  return c->good;
-}
-
-static void visit_circle(circle_trial *c) {
-  const dyd_bbox at = {{c->at.x, c->at.x, c->at.y, c->at.y}};
-  double radius2 = c->reach * c->reach * (1 + ROOM);
-  if (c->reach > 0) dyd_tree_near(&c->at.w->pd->sk.rects.tree, &at, &radius2, meet_square, c);
-}
-
-/* The circle of the same direction and height h, through i. */
-static void set_height(circle_trial *c, double h) {
-  const double *i = c->at.w->about[c->at.w->i];
-  double distance = 1 / (2 * h), r = i[2];
-  c->at.x = i[0] + c->u.x * distance;
-  c->at.y = i[1] + c->u.y * distance;
-  c->at.radius = c->reach = distance + (c->at.legal ? r : -r);
-}
-
-/* A still higher disc is in the smaller circle that the worst allows. */
-static bool see_worst(circle_trial *c) {
-  uint32_t last = DYD_NONE;
-  while (c->worst != last && c->highest > 0 && isfinite(c->highest)) {
-    last = c->worst;
-    set_height(c, c->highest);
-    visit_circle(c);
-  }
-  return c->worst != DYD_NONE && dyd_discs_see(c->at.w, c->worst);
-}
-
-/* Where the circle is much larger than the pair, or a half-plane, many discs are in its way, the highest in smaller
- * circles, which it holds. Returns true if one is there. */
-static bool look_nearby(const circle_trial *c) {
-  circle_trial small = *c;
-  const double *i = c->at.w->about[c->at.w->i], *j = c->at.w->about[c->at.w->j];
-  double h = 1 / (4 * hypot(j[0] - i[0], j[1] - i[1]));
-  for (int k = 0; k < MOST_SMALLER && h > 4 * c->highest && small.worst == DYD_NONE; k++, h /= 4) {
-    small.highest = h;
-    set_height(&small, h);
-    visit_circle(&small);
-  }
-  return see_worst(&small);
-}
-
-/* Far circles: all discs beyond the tangent of i, about. */
-static void look_beyond(circle_trial *c) {
-  const double *i = c->at.w->about[c->at.w->i];
-  double height = c->u.x * i[0] + c->u.y * i[1];
-  dyd_tree_beyond(&c->at.w->pd->sk.rects.tree, c->u.x, c->u.y, &height, keep_worst, c);
-}
-
-/* ---- one pair ---- */
 
 /* Are the centres as near as the sum (sign = 1) or the difference of the radii? */
 static bool vertices_near(const dyd_disc_work *w, uint32_t v, uint32_t k, int sign) {
   const double *a = w->about[v], *b = w->about[k];
-  double gap = hypot(b[0] - a[0], b[1] - a[1]) - fabs(dyd_filter_radius(w, v) + sign * dyd_filter_radius(w, k));
+  double gap = hypot(b[0] - a[0], b[1] - a[1]) - fabs(radius_d(w, v) + sign * radius_d(w, k));
   if (fabs(gap) > ROOM * (size_d(w, v) + size_d(w, k))) return gap < 0;
   return (sign < 0 ? dyd_disc_is_within : dyd_discs_meet)(&w->disc[v], &w->disc[k]);
 }
 
-/* The caps of those seen that have none yet. */
+/* ---- all others ---- */
+
+/* added: how many discs were not clear of it, and are seen now. */
+typedef struct circle_look {
+  circle_trial at;
+  int added;
+} circle_look;
+
+static bool meet_other(void *context, uint32_t v) {
+  circle_look *l = context;
+  if (keeps_clear(&l->at, v) || !dyd_discs_see(l->at.w, v)) return !l->at.w->failed;
+  return ++l->added < MOST_NEW;
+}
+
+static double tree_extent(const dyd_tree *t) {
+  const double *e = t->node[t->level[t->levels - 1]].e;
+  return e[1] - e[0] + (e[3] - e[2]);
+}
+
+/* Returns true if all others are clear of it. Otherwise some are seen now. */
+static bool all_are_clear(const circle_trial *c) {
+  circle_look others = {.at = *c};
+  double most = c->legal ? c->w->now * c->w->heaviest : 0, reach = c->radius + most;
+  double size = fabs(c->x) + fabs(c->y) + reach + tree_extent(c->w->tree);
+  const dyd_bbox at = {{c->x, c->x, c->y, c->y}};
+  double height = c->height - most - 16 * ROOM * (size + fabs(c->height)) - c->clear;
+  double radius2 = reach + 16 * ROOM * size + c->clear;
+  radius2 *= radius2 * (1 + ROOM);
+  if (c->line)
+    dyd_tree_beyond(c->w->tree, c->x, c->y, &height, meet_other, &others);
+  else
+    dyd_tree_near(c->w->tree, &at, &radius2, meet_other, &others);
+  return others.added == 0 && !c->w->failed;
+}
+
+/* ---- circles ---- */
+
+/* The circle of direction u; false: doubles cannot place it. */
+static bool circle_of_direction(circle_trial *c, dyd_disc_work *w, dyd_direction u, bool legal) {
+  const double *i = w->about[w->i], *j = w->about[w->j];
+  double jx = j[0] - i[0], jy = j[1] - i[1], size = hypot(jx, jy);
+  double ri = radius_d(w, w->i), rj = radius_d(w, w->j), delta = rj - ri;
+  double n = size * size - delta * delta, coordinates = fabs(i[0]) + fabs(i[1]) + fabs(j[0]) + fabs(j[1]);
+  double num = u.x * jx + u.y * jy + (legal ? -delta : delta), from = 1 / (2 * num / n);
+  double turn = fmax(TURN, u.off);
+  double off = turn * size + 0x1p-49 * (size + delta + coordinates) +
+               0x1p-48 * (size * size + delta * delta + size * coordinates) / n * fabs(num),
+         doubt = off / fabs(num);
+  *c = (circle_trial){.w = w, .legal = legal};
+  if (!(n > 0x1p-20 * size * size && n > 0x1p-400 && n < 0x1p400)) return false;
+  if (num > 0 && doubt < 0.25) {
+    c->x = i[0] + u.x * from;
+    c->y = i[1] + u.y * from;
+    double a = distance_d(c, w->i), b = distance_d(c, w->j);
+    c->radius = legal ? fmax(a + ri, b + rj) : fmax(a - ri, b - rj);
+    c->clear = 2 * fabs(from) * (2 * doubt + turn) + ROOM * coordinates;
+    return c->radius < 1e150 && c->clear < 1e150;
+  }
+  double a = u.x * i[0] + u.y * i[1], b = u.x * j[0] + u.y * j[1], wide = tree_extent(w->tree);
+  c->line = true;
+  c->x = u.x;
+  c->y = u.y;
+  c->height = legal ? fmin(a - ri, b - rj) : fmin(a + ri, b + rj);
+  c->clear = 8 * (turn + off / size) * (size + wide) * (1 + size * size / n);
+  return isfinite(c->height) && isfinite(c->clear);
+}
+
+/* A direction that all caps have in common: about the middle, or where they have nearly half of all, that of J. */
+static bool direction_in_common(dyd_direction *u, dyd_disc_work *w) {
+  if (!dyd_caps_common(u, &w->caps)) return false;
+  dyd_direction a = dyd_filter_cap_end(&w->caps.item[w->caps.by[0]], -1);
+  dyd_direction b = dyd_filter_cap_end(&w->caps.item[w->caps.by[1]], 1);
+  if (hypot(a.x + b.x, a.y + b.y) > 0x1p-8) return true;
+  const double *i = w->about[w->i], *j = w->about[w->j];
+  double x = j[0] - i[0], y = j[1] - i[1], size = hypot(x, y);
+  *u = (dyd_direction){x / size, y / size, 0};
+  return true;
+}
+
+/* ---- one question ---- */
+
+/* Returns true if no disc meets d, which holds i and j. Otherwise some may be seen now. */
+static bool is_witness(dyd_disc_work *w, const dyd_disc *d) {
+  const circle_trial c = {.w = w, .legal = true, .x = mpq_get_d(d->x), .y = mpq_get_d(d->y), .radius = mpq_get_d(d->r)};
+  if (!isfinite(c.x) || !isfinite(c.y) || !isfinite(c.radius)) return false;
+  for (;;) {
+    for (size_t k = 0; k < w->count; k++)
+      if (dyd_discs_meet(d, &w->disc[w->seen[k]])) return false;
+    if (all_are_clear(&c)) return true;
+    if (w->failed) return false;
+  }
+}
+
+/* Where doubles do not place the circle of the direction found: as precise as it takes. */
+static bool has_fine_witness(dyd_disc_work *w) {
+  DYD_LOCAL(dyd_disc, d);
+  bool found = false;
+  size_t had = w->count;
+  for (unsigned bits = LEAST_BITS; bits <= w->most_bits && w->count == had && !w->failed && !found; bits *= 4)
+    found = dyd_caps_circle(&d, &w->caps, bits) && is_witness(w, &d);
+  return found;
+}
+
+/* The caps of those seen that have none yet. false: legal, and one of them meets i or j, so that none is a witness. */
 static bool load_more(dyd_disc_work *w, bool legal) {
   for (; w->loaded < w->count && !w->failed; w->loaded++) {
     uint32_t v = w->seen[w->loaded];
@@ -323,53 +309,22 @@ static bool load_more(dyd_disc_work *w, bool legal) {
   return !w->failed;
 }
 
-bool dyd_discs_load(dyd_disc_work *w, bool legal) {
+dyd_truth dyd_discs_ask(dyd_disc_work *w, bool legal) {
+  if (!legal && vertices_near(w, w->i, w->j, 1)) return DYD_TRUE;
+  if (legal && vertices_near(w, w->i, w->j, -1)) /* the larger is the best witness then */
+    return is_witness(w, &w->disc[w->j]) ? DYD_TRUE : w->failed ? DYD_UNKNOWN : DYD_FALSE;
   w->loaded = 0;
   if (!dyd_caps_begin(&w->caps, &w->disc[w->i], &w->disc[w->j], legal)) w->failed = true;
-  return load_more(w, legal);
-}
-
-static bool discs_are_legal(dyd_disc_work *w) {
-  for (int round = 0; round < MOST_ROUNDS; round++) {
-    circle_trial c;
+  for (size_t had = SIZE_MAX; w->count != had && !w->failed;) {
     dyd_direction u;
-    DYD_INVARIANT(2 * round < MOST_ROUNDS); /* the worst first: a few are enough */
-    if (!(round ? load_more : dyd_discs_load)(w, true) || !dyd_caps_common(&u, &w->caps)) return false;
-    bool placed = place_circle_of(&c, w, u, true);
-    size_t had = w->count;
-    if (placed) visit_circle(&c);
-    if (c.good || (!(placed && see_worst(&c)) && circle_is_witness(w))) return true;
-    if (w->count == had) return false;
-  }
-  return false;
-}
-
-/* The small disc is in the large one, which is the best circle then. */
-static bool large_is_legal(dyd_disc_work *w) {
-  circle_q c = {.w = w, .one = true};
-  const dyd_disc *j = &w->disc[w->j];
-  dyd_disc_init(&c.disc);
-  mpq_set(c.disc.x, j->x);
-  mpq_set(c.disc.y, j->y);
-  mpq_set(c.disc.r, j->r);
-  visit_exactly(&c);
-  dyd_disc_clear(&c.disc);
-  return c.clear;
-}
-
-static bool discs_are_possible(dyd_disc_work *w) {
-  for (int round = 0; round < MOST_ROUNDS; round++) {
     circle_trial c;
-    dyd_direction u;
-    DYD_INVARIANT(2 * round < MOST_ROUNDS); /* the worst first: a few are enough */
-    if (!(round ? load_more : dyd_discs_load)(w, false)) return true;
-    if (!dyd_caps_uncovered(&u, &w->caps)) return false;
-    bool placed = place_circle_of(&c, w, u, false);
-    if (look_nearby(&c)) continue;
-    (placed ? visit_circle : look_beyond)(&c);
-    if (!see_worst(&c)) return true;
+    bool some = load_more(w, legal) && (legal ? direction_in_common(&u, w) : dyd_caps_uncovered(&u, &w->caps));
+    if (!some) return w->failed ? DYD_UNKNOWN : DYD_FALSE;
+    had = w->count;
+    DYD_INVARIANT(w->weight || had < MOST_SEEN); /* a few are enough */
+    if (circle_of_direction(&c, w, u, legal) ? all_are_clear(&c) : legal && has_fine_witness(w)) return DYD_TRUE;
   }
-  return true;
+  return DYD_UNKNOWN;
 }
 
 /* ---- squares in discs ---- */
@@ -418,9 +373,8 @@ static dyd_pair_status discs_status(dyd_disc_work *w, uint32_t i, uint32_t j, co
     dyd_legal_each_at(w->pd, end ? j : i, see_neighbour, w);
     dyd_open_each_at(w->pd, end ? j : i, DYD_TIE, see_neighbour, w);
   }
-  if (known != DYD_ILLEGAL && (vertices_near(w, i, j, -1) ? large_is_legal(w) : discs_are_legal(w))) return DYD_LEGAL;
-  bool possible = known == DYD_LEGAL || vertices_near(w, i, j, 1) || discs_are_possible(w);
-  return possible ? DYD_INDETERMINATE : DYD_ILLEGAL;
+  if (known != DYD_ILLEGAL && dyd_discs_ask(w, true) == DYD_TRUE) return DYD_LEGAL;
+  return known == DYD_LEGAL || dyd_discs_ask(w, false) != DYD_FALSE ? DYD_INDETERMINATE : DYD_ILLEGAL;
 }
 
 /* *left: how many indeterminate pairs were not reached when work was cancelled; these stay as they are. */
@@ -496,6 +450,7 @@ static dyd_status discs_begin(dyd_disc_work *w, dyd_error *err) {
   dyd_caps_init(&w->caps);
   w->scale = scale_of_sites(w->sites);
   dyd_status st = w->scale ? triangulate_scaled(w) : DYD_OK;
+  w->tree = &w->pd->sk.rects.tree;
   return st == DYD_OK ? dyd_discs_make(w, err) : st;
 }
 
@@ -511,7 +466,7 @@ static dyd_status discs_end(const dyd_disc_work *w, dyd_status st, size_t left, 
 
 dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, const volatile int *cancel, dyd_error *err) {
   if (!pd || !out) return dyd_fail_null(err);
-  dyd_disc_work w = {.pd = pd, .sites = pd->sk.reps.sites, .cancel = cancel};
+  dyd_disc_work w = {.pd = pd, .sites = pd->sk.reps.sites, .most_bits = MOST_BITS, .cancel = cancel};
   dyd_pair_list list = {0};
   size_t left = 0;
   if (err) dyd_error_clear(err);

@@ -1,16 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Deaths and births where each point has a weight: it moves by at most t times that [TOL-8].
  *
- * At any t the discs are given, and whether a pair is legal, or possible, for some of the sites is decided exactly by
- * caps of directions [DISC-1]. So t is bracketed and halved. For all sites: a pair that some of them refute is refuted
- * by all; one that they allow is allowed by all when all others keep clear of a circle of theirs, which doubles check:
- * c = p_i + u / (2 h) with a direction u that is off by at most TURN, so c by `doubt`; distances are off by ROOM of all
- * sizes (a few roundings each). A site that may not keep clear is one of `some` from then on. So doubles decide only
- * far sites.
- *
- * h = (u.J -+ delta) / n, n = J^2 - delta^2, delta = R_j - R_i: its relative error is at most (TURN |J| + 2^-49 (|J| +
- * delta)) / |u.J -+ delta| + 2^-48 (J^2 + delta^2) / n, and that of c - p_i twice this, while it is below 1/4, plus
- * TURN. Where h is that small, the circle is a line but for a bulge of at most J^2 / (8 |c|) between the two discs. */
+ * At any t the discs are given, and whether a pair is legal, or possible, is decided as for discs of given radii
+ * (dyd_discs_ask). So t is bracketed and halved. */
 #include "base/alloc.h"
 #include "tolerance/discs.h"
 #include "tolerance/lines.h"
@@ -148,30 +140,18 @@ static double filter_guess_weight(const dyd_disc_work *w, bool legal, double lo,
   return lo;
 }
 
-#define ROOM 0x1p-48
-
-#define TURN 0x1p-38 /* directions between two that are less than 2^-9 from opposite are not used */
-
 #define WIDTH (1 + 0x1p-41)
 
 #define SPARE 0x1p-51 /* weights may be the doubles next to the intended ones */
 
 #define NEAR 0x1p-43 /* how far beside a guess is asked at first */
 
-enum { MOST_NEW = 6, MOST_STEPS = 4000, GUESSES = 12 };
+enum { MOST_STEPS = 4000, GUESSES = 12 };
 
 typedef struct weight_work {
   dyd_tolerance *t;
   dyd_disc_work discs;
-  mpq_t now; /* t, a double */
 } weight_work;
-
-/* ---- discs at t ---- */
-
-static void weigh_disc(weight_work *g, uint32_t v) {
-  mpq_set_d(g->discs.disc[v].r, g->t->weight[v]);
-  mpq_mul(g->discs.disc[v].r, g->discs.disc[v].r, g->now);
-}
 
 /* The smaller disc first, at any t. */
 static void weigh_pair(weight_work *g, uint32_t v, uint32_t w) {
@@ -181,122 +161,11 @@ static void weigh_pair(weight_work *g, uint32_t v, uint32_t w) {
   g->discs.count = 0;
 }
 
-static void weigh_all(weight_work *g, double t) {
-  mpq_set_d(g->now, t);
-  g->discs.now = t;
-  weigh_disc(g, g->discs.i);
-  weigh_disc(g, g->discs.j);
-  for (size_t k = 0; k < g->discs.count; k++) weigh_disc(g, g->discs.seen[k]);
-}
-
-/* ---- all others ---- */
-
-/* added: how many discs were not clear of it, and are seen now. */
-typedef struct weight_circle {
-  dyd_circle_d at;
-  weight_work *g;
-  size_t added;
-} weight_circle;
-
-static bool meet_other(void *context, uint32_t v) {
-  weight_circle *c = context;
-  if (dyd_filter_keeps_clear(&c->at, v) || !dyd_discs_see(&c->g->discs, v)) return !c->g->discs.failed;
-  weigh_disc(c->g, v);
-  return ++c->added < MOST_NEW;
-}
-
-/* Returns true if all others are clear of it. Otherwise some are seen now. */
-static bool all_are_clear(weight_work *g, const dyd_circle_d *c) {
-  const dyd_tolerance *t = g->t;
-  weight_circle others = {.at = *c, .g = g};
-  double most = c->legal ? g->discs.now * t->heaviest : 0, reach = c->radius + most;
-  double size = fabs(c->x) + fabs(c->y) + reach;
-  size += t->sk->mesh.extent[0] + t->sk->mesh.extent[1];
-  const dyd_bbox at = {{c->x, c->x, c->y, c->y}};
-  double height = c->height - most - 16 * ROOM * (size + fabs(c->height)) - c->clear;
-  double radius2 = reach + 16 * ROOM * size + c->clear;
-  radius2 *= radius2 * (1 + ROOM);
-  if (c->line)
-    dyd_tree_beyond(&t->tree, c->x, c->y, &height, meet_other, &others);
-  else
-    dyd_tree_near(&t->tree, &at, &radius2, meet_other, &others);
-  return others.added == 0 && !g->discs.failed;
-}
-
-/* The circle of direction u; false: doubles cannot place it. */
-static bool circle_of_direction(dyd_circle_d *c, weight_work *g, dyd_direction u, bool legal) {
-  dyd_disc_work *w = &g->discs;
-  const double *i = w->about[w->i], *j = w->about[w->j];
-  double jx = j[0] - i[0], jy = j[1] - i[1], size = hypot(jx, jy);
-  double ri = dyd_filter_radius(w, w->i), rj = dyd_filter_radius(w, w->j), delta = rj - ri;
-  double n = size * size - delta * delta, coordinates = fabs(i[0]) + fabs(i[1]) + fabs(j[0]) + fabs(j[1]);
-  double num = u.x * jx + u.y * jy + (legal ? -delta : delta), from = 1 / (2 * num / n);
-  double off = TURN * size + 0x1p-49 * (size + delta + coordinates) +
-               0x1p-48 * (size * size + delta * delta + size * coordinates) / n * fabs(num),
-         doubt = off / fabs(num);
-  *c = (dyd_circle_d){.w = w, .legal = legal};
-  if (!(n > 0x1p-20 * size * size && n > 0x1p-400 && n < 0x1p400)) return false;
-  if (num > 0 && doubt < 0.25) {
-    c->x = i[0] + u.x * from;
-    c->y = i[1] + u.y * from;
-    double a = dyd_filter_distance(c, w->i), b = dyd_filter_distance(c, w->j);
-    c->radius = legal ? fmax(a + ri, b + rj) : fmax(a - ri, b - rj);
-    c->clear = 2 * fabs(from) * (2 * doubt + TURN) + ROOM * coordinates;
-    return c->radius < 1e150 && c->clear < 1e150;
-  }
-  double a = u.x * i[0] + u.y * i[1], b = u.x * j[0] + u.y * j[1];
-  c->line = true;
-  c->x = u.x;
-  c->y = u.y;
-  c->height = legal ? fmin(a - ri, b - rj) : fmin(a + ri, b + rj);
-  c->clear = 8 * (TURN + off / size) * (size + g->t->sk->mesh.extent[0] + g->t->sk->mesh.extent[1]);
-  c->clear *= 1 + size * size / n;
-  return true;
-}
-
-/* ---- at one t ---- */
-
-/* The middle of what the caps have in common, which is at most half of all directions; of nearly half, that of J. */
-static bool is_some_common(dyd_direction *u, weight_work *g) {
-  dyd_disc_work *w = &g->discs;
-  if (!dyd_discs_load(w, true) || !dyd_caps_common(u, &w->caps)) return false;
-  dyd_direction a = dyd_filter_cap_end(&w->caps.item[w->caps.by[0]], -1);
-  dyd_direction b = dyd_filter_cap_end(&w->caps.item[w->caps.by[1]], 1);
-  if (hypot(a.x + b.x, a.y + b.y) > 0x1p-8) return true;
-  const double *i = w->about[w->i], *j = w->about[w->j];
-  double x = j[0] - i[0], y = j[1] - i[1], size = hypot(x, y);
-  *u = (dyd_direction){x / size, y / size, 0};
-  return true;
-}
-
-/* The disc of i is in that of j, which is the best witness then. */
-static dyd_truth is_larger_legal(weight_work *g) {
-  dyd_disc_work *w = &g->discs;
-  const double *j = w->about[w->j];
-  const dyd_circle_d c = {.w = w, .legal = true, .x = j[0], .y = j[1], .radius = dyd_filter_radius(w, w->j)};
-  for (;;) {
-    for (size_t k = 0; k < w->count; k++)
-      if (dyd_discs_meet(&w->disc[w->j], &w->disc[w->seen[k]])) return DYD_FALSE;
-    if (all_are_clear(g, &c)) return DYD_TRUE;
-    if (w->failed) return DYD_UNKNOWN;
-  }
-}
-
 /* legal: is the pair legal; else: is it illegal? */
 static dyd_truth weights_hold_at(weight_work *g, double t, bool legal) {
-  dyd_disc_work *w = &g->discs;
-  weigh_all(g, t);
-  if (legal && dyd_disc_is_within(&w->disc[w->i], &w->disc[w->j])) return is_larger_legal(g);
-  if (!legal && dyd_discs_meet(&w->disc[w->i], &w->disc[w->j])) return DYD_FALSE;
-  for (;;) {
-    dyd_direction u;
-    dyd_circle_d c;
-    bool some = legal ? is_some_common(&u, g) : dyd_discs_load(w, false) && dyd_caps_uncovered(&u, &w->caps);
-    if (w->failed) return DYD_UNKNOWN;
-    if (!some) return legal ? DYD_FALSE : DYD_TRUE;
-    if (!circle_of_direction(&c, g, u, legal)) return DYD_UNKNOWN;
-    if (all_are_clear(g, &c)) return legal ? DYD_TRUE : DYD_FALSE;
-  }
+  dyd_discs_weigh(&g->discs, t);
+  dyd_truth shown = dyd_discs_ask(&g->discs, legal);
+  return legal || shown == DYD_UNKNOWN ? shown : shown == DYD_TRUE ? DYD_FALSE : DYD_TRUE;
 }
 
 /* ---- where it changes ---- */
@@ -417,12 +286,13 @@ static dyd_status weigh_row(bool *late, dyd_tolerance_row *row, void *work) {
 }
 
 dyd_status dyd_weigh(dyd_tolerance *t, size_t first) {
-  weight_work g = {.t = t, .discs = {.pd = t->pd, .sites = t->sk->reps.sites, .weight = t->weight}};
+  weight_work g = {
+      .t = t,
+      .discs = {
+          .pd = t->pd, .sites = t->sk->reps.sites, .weight = t->weight, .heaviest = t->heaviest, .tree = &t->tree}};
   dyd_caps_init(&g.discs.caps);
-  mpq_init(g.now);
   dyd_status st = dyd_near_index(t);
   if (st == DYD_OK) st = dyd_rows_rework(t, first, weigh_row, &g);
   dyd_discs_clear(&g.discs);
-  mpq_clear(g.now);
   return st;
 }

@@ -317,7 +317,7 @@ static void test_refused(void **state) {
 }
 
 /* Small discs, hundreds of them: near the hull circles are as large as half-planes, and few others are in their way.
- * The armed build counts how many are examined. */
+ * The armed build counts how many are seen. */
 static void test_many(void **state) {
   enum { MANY = 700 };
   static double x0[MANY], x1[MANY], y0[MANY], y1[MANY];
