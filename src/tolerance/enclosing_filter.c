@@ -8,6 +8,7 @@
 #include "tolerance/state.h"
 
 #include "base/error.h"
+#include "base/index.h"
 #include "dyadic/raw.h"
 #include "rect/rect.h"
 #include "rect/sites_table.h"
@@ -88,11 +89,6 @@ static dyd_status rows_add_ties(dyd_tolerance *t, const dyd_delaunay *pd) {
   return st;
 }
 
-static int compare_rows(const void *a, const void *b) {
-  const dyd_tolerance_row *r = a, *s = b;
-  return r->i != s->i ? (r->i > s->i) - (r->i < s->i) : (r->j > s->j) - (r->j < s->j);
-}
-
 /* Of the centres, so far. */
 static dyd_status tolerance_widen(double *least, dyd_tolerance *t, double off, const dyd_delaunay *pd, double up_to) {
   size_t count[4];
@@ -100,7 +96,7 @@ static dyd_status tolerance_widen(double *least, dyd_tolerance *t, double off, c
   rows_widen(least, t, off, pd, up_to);
   dyd_status st = count[DYD_TIE] ? rows_add_ties(t, pd) : DYD_OK;
   if (st != DYD_OK) return st;
-  if (t->rows) qsort(t->row, t->rows, sizeof *t->row, compare_rows);
+  if (t->rows) qsort(t->row, t->rows, sizeof *t->row, dyd_compare_two);
   const bool ties = count[DYD_TIE] > 0;
   dyd_tolerance_result *r = &t->result;
   r->lo = ties ? 0 : widened_down(r->lo, off);
