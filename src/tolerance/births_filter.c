@@ -24,7 +24,7 @@ typedef struct birth_work {
   dyd_lines_d pair;
   dyd_line_d line[MOST_LINES];
   uint32_t count, links, best, chain[MOST_LINES];
-  double corner[MOST_LINES], value;
+  double corner[MOST_LINES + 1], value;
   int end;
 } birth_work;
 
@@ -48,40 +48,16 @@ static double birth_value(const birth_work *b, const dyd_line_d *o, double s) {
   return d / (sqrt(fmax(r * r + d, 0)) + r);
 }
 
-/* The line beyond that of number a: where they cross in *s. The same: none. */
-static uint32_t next_link(double *s, const birth_work *b, uint32_t a) {
-  const dyd_line_d *from = &b->line[a];
-  uint32_t next = a;
-  *s = HUGE_VAL;
-  for (uint32_t k = 0; k < b->count; k++) {
-    const dyd_line_d *o = &b->line[k];
-    if (!(o->n > from->n)) continue;
-    double at = (o->m - from->m) / (2 * (o->n - from->n));
-    if (!(at < *s || (at == *s && o->n > b->line[next].n))) continue;
-    *s = at;
-    next = k;
-  }
-  return next;
-}
-
 static void birth_envelope(birth_work *b) {
-  uint32_t first = 0, next;
-  double at;
-  for (uint32_t k = 1; k < b->count; k++) {
-    const dyd_line_d *o = &b->line[k], *low = &b->line[first];
-    if (o->n < low->n || (o->n == low->n && o->m < low->m)) first = k;
-  }
-  b->chain[0] = first;
-  b->links = 1;
+  b->links = dyd_filter_envelope(b->chain, b->corner, b->line, b->count);
   b->best = 0;
   b->value = -HUGE_VAL;
-  for (uint32_t a = first; (next = next_link(&at, b, a)) != a; a = next) {
-    double value = birth_value(b, &b->line[next], at);
-    if (value > b->value) b->value = value, b->best = b->links;
-    b->corner[b->links] = at;
-    b->chain[b->links++] = next;
+  for (uint32_t m = 1; m < b->links; m++) {
+    double value = birth_value(b, &b->line[b->chain[m]], b->corner[m]);
+    if (value > b->value) b->value = value, b->best = m;
   }
-  double size = sqrt(b->pair.jj), left = b->line[first].n / size, right = -b->line[b->chain[b->links - 1]].n / size;
+  double size = sqrt(b->pair.jj), left = b->line[b->chain[0]].n / size,
+         right = -b->line[b->chain[b->links - 1]].n / size;
   b->end = fmax(left, right) < b->value ? 0 : left > right ? -1 : 1;
 }
 

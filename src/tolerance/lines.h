@@ -69,6 +69,10 @@ typedef struct dyd_death_d {
 /* Without vertices. false: doubles cannot hold the pair well. */
 bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t j);
 void dyd_filter_line(dyd_line_d *o, const dyd_lines_d *l, const dyd_points_d *p, uint32_t vertex);
+/* The lower envelope of `count` lines, at least one, by m and n alone, about. Sets chain to the numbers of its lines,
+ * in order of n, corner[k], 0 < k < what is returned, to the place where those of chain[k - 1] and chain[k] cross, and
+ * the corner behind the last line to infinity. Returns how many lines it has. */
+uint32_t dyd_filter_envelope(uint32_t *chain, double *corner, const dyd_line_d *line, uint32_t count);
 /* The death of a strictly Delaunay pair with these others; false: not certain. `box` (may be NULL) gets a box around
  * the centre, *radius2 an upper bound of its squared distance to the sites that bind; infinite for a half-plane. */
 bool dyd_filter_death(dyd_death_d *out, double box[4], double *radius2, const dyd_points_d *p, dyd_lines_d *l);

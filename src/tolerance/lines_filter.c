@@ -117,6 +117,26 @@ void dyd_filter_line(dyd_line_d *o, const dyd_lines_d *l, const dyd_points_d *at
   o->vertex = vertex;
 }
 
+uint32_t dyd_filter_envelope(uint32_t *chain, double *corner, const dyd_line_d *line, uint32_t count) {
+  uint32_t links = 0, next = 0;
+  for (uint32_t k = 1; k < count; k++)
+    if (line[k].n < line[next].n || (line[k].n == line[next].n && line[k].m < line[next].m)) next = k;
+  do {
+    const dyd_line_d *from = &line[chain[links++] = next];
+    double *at = &corner[links];
+    *at = HUGE_VAL;
+    for (uint32_t k = 0; k < count; k++) {
+      const dyd_line_d *o = &line[k];
+      if (!(o->n > from->n)) continue;
+      double s = (o->m - from->m) / (2 * (o->n - from->n));
+      if (!(s < *at || (s == *at && o->n > line[next].n))) continue;
+      *at = s;
+      next = k;
+    }
+  } while (next != chain[links - 1]);
+  return links;
+}
+
 /* ---- places ---- */
 
 /* s, and the centre c(s) from p_i, cc = |c|^2. end: -1 or 1 for an end of the bisector. es, once known: a bound of the

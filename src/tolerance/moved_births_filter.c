@@ -41,36 +41,20 @@ static void link_measure(dyd_moves *m, uint32_t n, double x, double y) {
   *a = (dyd_move_link){a->site, x, y, fmin(birth_room(m, a->site, x, y), birth_room(m, a[1].site, x, y)), false};
 }
 
-/* The line beyond that of `from` in the lower envelope of the sites' lines over the bisector (lines.h), where they
- * cross in *at. The same: none. */
-static uint32_t birth_next(double *at, const dyd_moves *m, double line[][2], uint32_t from) {
-  uint32_t next = from;
-  *at = HUGE_VAL;
-  for (uint32_t k = 2; k < m->count; k++) {
-    double more = line[k][1] - line[from][1], s = (line[k][0] - line[from][0]) / (2 * more);
-    if (!(more > 0 && (s < *at || (s == *at && line[k][1] > line[next][1])))) continue;
-    *at = s;
-    next = k;
-  }
-  return next;
-}
-
 /* The chain of unmoved sites. */
 static void birth_chain(dyd_moves *m) {
-  double jx = m->site[1].x.h, jy = m->site[1].y.h, line[2 + DYD_MOVES_MOST_SEEN][2], s;
-  uint32_t first = 2;
+  double jx = m->site[1].x.h, jy = m->site[1].y.h, corner[DYD_MOVES_MOST_SEEN + 1];
+  uint32_t chain[DYD_MOVES_MOST_SEEN];
+  dyd_line_d line[DYD_MOVES_MOST_SEEN];
   for (uint32_t k = 2; k < m->count; k++) {
     double x = m->site[k].x.h, y = m->site[k].y.h;
-    line[k][0] = x * (x - jx) + y * (y - jy);
-    line[k][1] = jx * y - jy * x;
-    if (line[k][1] < line[first][1] || (line[k][1] == line[first][1] && line[k][0] < line[first][0])) first = k;
+    line[k - 2] = (dyd_line_d){.m = x * (x - jx) + y * (y - jy), .n = jx * y - jy * x};
   }
-  uint32_t next = first, a;
-  m->links = 0;
-  do {
-    next = birth_next(&s, m, line, a = next);
-    m->link[m->links++] = (dyd_move_link){a, jx / 2 - s * jy, jy / 2 + s * jx, HUGE_VAL, false};
-  } while (next != a);
+  m->links = dyd_filter_envelope(chain, corner, line, m->count - 2);
+  for (uint32_t n = 0; n < m->links; n++) {
+    double s = corner[n + 1];
+    m->link[n] = (dyd_move_link){chain[n] + 2, jx / 2 - s * jy, jy / 2 + s * jx, HUGE_VAL, false};
+  }
   for (uint32_t n = 0; n + 1 < m->links; n++) link_measure(m, n, m->link[n].x, m->link[n].y);
 }
 
