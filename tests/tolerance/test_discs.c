@@ -360,6 +360,8 @@ static void test_far_centre(void **state) {
                                      {4.7978909999999999, 1.4393673, 28.787345999999999, 14.393673, 14.393673}},
                                     /* a small disc in a large one; the nearest other is 2^-30 away */
                                     {4, {0, 1, 16, -40}, {0, 0, 0, 0}, {8, 2, 8 - 0x1p-30, 1}},
+                                    /* one 2^-22 beyond the rim of a large one: doubles place no circle */
+                                    {4, {0, 6 + 0x1p-22, -16, 40}, {0, 0, 0, 0}, {8, 2, 8 - 0x1p-30, 1}},
                                     /* beside a line, 2^-30 before a third disc touches it */
                                     {4, {0, 1024, 512, 512}, {0, 0, 16 + 0x1p-30, 99999}, {8, 8, 8, 1}}};
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
