@@ -12,7 +12,7 @@ Proof.
     pose proof (ds_le c _ _ M); pose proof (le_dl c _ _ I); lra.
 Qed.
 
-(* The rectangle of both is what they have in common: it holds exactly the places of two points that are one. *)
+(* The rectangle of both is their intersection: it holds exactly the places of two points that are one. *)
 Theorem joined_exact A B : (exists z, inside z A /\ inside z B) ->
   exists C, xlo C = Rmax (xlo A) (xlo B) /\ xhi C = Rmin (xhi A) (xhi B) /\ ylo C = Rmax (ylo A) (ylo B) /\
     yhi C = Rmin (yhi A) (yhi B) /\ forall z, inside z C <-> inside z A /\ inside z B.

@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* A face can be triangulated by itself [LOC-1], and may keep its triangles [LOC-2]: when its rim is legal, and its
+(* A face can be triangulated alone [LOC-1], and may keep its triangles [LOC-2]: when its rim is legal, and its
    triangles turn left and are Delaunay locally, no other representative is in their discs. The rim never winds around a
    site that was in no triangle of the face, wherever points are: so it is in none of the new triangles, either. *)
 From Coq Require Import Reals Lra Lia Psatz Classical List ZArith Permutation.

@@ -7,7 +7,7 @@ Open Scope R_scope.
 
 (* ---- one axis ---- *)
 
-(* With any two it holds what is between them; m is not strictly inside. *)
+(* With any two numbers it holds all between them; m is not strictly inside. *)
 Definition unbroken (I : R -> Prop) : Prop := forall a b c, a <= b <= c -> I a -> I c -> I b.
 Definition uncut (m : R) (I : R -> Prop) : Prop := (forall t, I t -> t <= m) \/ (forall t, I t -> m <= t).
 
@@ -24,7 +24,7 @@ Definition to_end (al ah bl bh : R) (I : R -> Prop) (s q : R) : Prop := (s = al 
   (forall t, I t -> share al ah bl bh t = (q - s) * (2 * t - q - s)) /\
   (forall t, I t -> t = bl \/ t = bh -> t = q).
 
-(* or what one looks from; s is on one side of I then. *)
+(* or the side that one looks from; s is on one side of I then. *)
 Definition to_side (al ah bl bh : R) (I : R -> Prop) (s : R) : Prop := (s = al \/ s = ah) /\
   (forall t, I t -> bl <= t <= bh /\ share al ah bl bh t = (t - s) * (t - s)) /\ uncut s I.
 
@@ -91,7 +91,7 @@ Proof.
     b; reflexivity |]. split; [left; intros a b [] |]. left. intros x y. split; [intros H; elim (N x y H) | tauto].
 Qed.
 
-(* Of a monotone continuous function over I, what is in J. *)
+(* The part in J of a monotone continuous function over I. *)
 Lemma arc_of_graph I J f (Z : R -> R -> Prop) : unbroken I -> unbroken J -> continuity f -> monotone_on I f ->
   (forall x y, Z x y <-> I x /\ J y /\ y = f x) -> arc Z.
 Proof.

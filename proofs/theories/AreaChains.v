@@ -9,7 +9,7 @@ Open Scope R_scope.
 (* By x, then by y. *)
 Definition lex (p q : point) : Prop := fst p < fst q \/ (fst p = fst q /\ snd p <= snd q).
 
-(* A chain with its last point first: extends it by z, taking away what is no left turn. *)
+(* A chain with its last point first: extends it by z, removing each vertex that is not a left turn. *)
 Fixpoint extend (z : point) (s : list point) : list point :=
   match s with
   | b :: ((a :: _) as r) => if Rle_dec (orient a b z) 0 then extend z r else z :: s

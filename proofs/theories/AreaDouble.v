@@ -164,7 +164,7 @@ Qed.
 
 (** ** Relative errors *)
 
-(** x stands for v >= 0 with a relative error of k u^2. *)
+(** x approximates v >= 0 with a relative error of k u^2. *)
 Definition near (k : R) (x : dd) (v : R) : Prop :=
   finite (fst x) /\ finite (snd x) /\ 0 <= v /\ Rabs (val (fst x) + val (snd x) - v) <= k * (u * u) * v /\
   Rabs (val (snd x)) <= 1.01 * u * val (fst x).
@@ -183,7 +183,7 @@ Proof.
   unfold u in *. lra.
 Qed.
 
-(** The last step of each operation: what is added exactly, if the error term is small. *)
+(** The last step of each operation: an exact addition, if the error term is small. *)
 Lemma near_end e k a b v : small e a -> small e b -> (-1074 <= e <= 1015)%Z -> 0 <= val a -> Rabs (val b) <= 1 / 4 * val a ->
   0 <= v -> Rabs (val a + val b - v) <= k * (u * u) * v -> near k (fast_two_sum a b) v.
 Proof.

@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** [AREA-T] dyd_filter_partial_edge_area2 in binary64: where it succeeds, what it gives is not below twice the area of the hull,
-    and exceeds it by at most 2^-86 of it. *)
+(** [AREA-T] dyd_filter_partial_edge_area2 in binary64: where it succeeds, its result is not below twice the area of the
+    hull, and exceeds it by at most 2^-86 of it. *)
 From Coq Require Import Bool ZArith Reals Lia Lra Psatz.
 From Flocq Require Import Core BinarySingleNaN Binary Bits.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersDistance.

@@ -34,7 +34,7 @@ Definition ll (A B : rect) (z : point) : Prop := xlo A < xlo B /\ ylo B < ylo A 
 Definition lr (A B : rect) (z : point) : Prop := xhi B < xhi A /\ ylo B < ylo A /\
   triangle (xhi A, ylo A) (xhi B, ylo B) (xhi A, ylo B) z.
 
-(* Whoever owns which side. *)
+(* For the two rectangles in either order. *)
 Definition either (c : rect -> rect -> point -> Prop) (A B : rect) (z : point) : Prop := c A B z \/ c B A z.
 
 (* ---- the areas cut off ---- *)

@@ -62,7 +62,7 @@ Definition star (o z : dpoint) (l : list dpoint) : option (double * double * nat
 (* As dyd_filter_shape has it: *)
 (* [AREA-V] src/voronoi/shape_filter.c: s->area[0] = dyd_max(dyd_lower((area - error) / {}), 0); *)
 Definition c_shape_two : const := (2, 0)%Z.
-(* Where the vertices are, and which are left out, does not matter: *)
+(* The theorems hold wherever the vertices are, and whichever are omitted: *)
 (* any src/voronoi/shape_filter.c: #define U {} *)
 (* any src/voronoi/shape_filter.c: if (!(share < {})) return *)
 (* any src/voronoi/shape_filter.c: for (double times = {}; *)
@@ -428,8 +428,8 @@ Proof.
   - exfalso. destruct (lit c_zero); discriminate.
 Qed.
 
-(* [AREA-V] in doubles: if the loop ends with one crossing, the polygon is as star_polygon_inner asks, and what is counted
-   of its area is not above the exact one. The list may have 2^48 vertices. *)
+(* [AREA-V] in doubles: if the loop ends with one crossing, the polygon is as star_polygon_inner asks, and the area
+   counted for it is not above the exact one. The list may have 2^48 vertices. *)
 Theorem star_counted o z l area error : star o z l = Some (area, error, 1%nat) ->
   22 * u * INR (length (z :: l ++ [z])) <= 1 ->
   let c := real z :: map real l ++ [real z] in

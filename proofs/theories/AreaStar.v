@@ -1,7 +1,7 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* A polygon that turns left round a point o all the way, and crosses the level of o upwards once: what dyd_filter_shape
-   asks of the polygons in doubles. Its triangles with o do not overlap, so it holds the sum of their areas; and o is in
-   every convex set with the vertices. *)
+(* A polygon that turns left round a point o all the way, and crosses the level of o upwards once: dyd_filter_shape
+   requires this of the polygons in doubles. Its triangles with o do not overlap, so it holds the sum of their areas;
+   and o is in every convex set with the vertices. *)
 From Coq Require Import Reals Lra Lia Psatz List.
 From Dyadel Require Import Plane Distance Cells Orientation VoronoiBounds.
 From Dyadel Require Import Measure MeasureTriangle AreaVoronoi AreaChains.
@@ -321,7 +321,7 @@ Proof.
 Qed.
 
 (* What the code adds up for cell i: nothing, or a lower bound of what either rung computes for a polygon with vertices
-   in the cell and in the window. Then the rest bounds what is undetermined. *)
+   in the cell and in the window. Then the rest bounds the undetermined area. *)
 Definition counted (N : nat) (B : sites) (W : rect) (i : nat) (a : R) : Prop :=
   a <= 0 \/
   (exists P, counterclockwise P /\ (forall v, In v P -> inside v W /\ int N B i v) /\ a <= polygon_area2 P / 2) \/

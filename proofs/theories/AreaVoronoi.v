@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* V, area: what is undetermined in a window measures at most the area of the window less the areas of polygons whose
+(* V, area: the undetermined part of a window measures at most the area of the window less the areas of polygons whose
    vertices are in the cells Int. *)
 From Coq Require Import Reals Lra Lia Psatz List.
 From Dyadel Require Import Plane Distance Cells Orientation VoronoiBounds.

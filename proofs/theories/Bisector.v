@@ -24,7 +24,7 @@ Proof. intros H. exists nil. split; [simpl; lia |]. intros y y' _ _. destruct H 
 Lemma changes_not n P : changes n P -> changes n (fun y => ~ P y).
 Proof. intros [l [L H]]. exists l. split; [exact L |]. intros y y' Y Off. specialize (H y y' Y Off). tauto. Qed.
 
-(* What goes on once it has begun changes once. *)
+(* A property that lasts from its first place onwards changes once. *)
 Lemma changes_up (P : R -> Prop) : (forall y y', y < y' -> P y -> P y') -> changes 1 P.
 Proof.
   intros Up. destruct (classic (exists y, P y)) as [[a A] | No]; [| apply changes_never; right; intros y Y; apply No;
@@ -47,7 +47,7 @@ Proof.
   - exists l. split; [exact L |]. intros y y' Y Off. specialize (H y y' Y Off). tauto.
 Qed.
 
-(* What holds between any two places at which it holds changes twice. *)
+(* A property that holds between any two places at which it holds changes twice. *)
 Lemma changes_between (P : R -> Prop) : (forall y z y', y <= z <= y' -> P y -> P y' -> P z) -> changes 2 P.
 Proof.
   intros B. destruct (changes_and 1 1 (fun y => exists z, z <= y /\ P z) (fun y => exists z, y <= z /\ P z)) as [l [L
@@ -74,7 +74,7 @@ Proof.
   repeat split; intros; try nra.
 Qed.
 
-(* From c to c' it changes by at least what it does for two points of the rectangles. *)
+(* From c to c' it changes by at least as much as for two points of the rectangles. *)
 Lemma lead_change x y x' y' : exists s q, inside s X /\ inside q Y /\
   2 * ((x' - x) * (fst q - fst s) + (y' - y) * (snd q - snd s)) <= lead x' y' - lead x y.
 Proof.

@@ -81,7 +81,7 @@ Proof.
     split; [exact J |]. split; [| lra]. intros ->. pose proof (ds_le_dl c (B i)). lra.
 Qed.
 
-(* What is surely nearest is possibly nearest, and surely not nearest is neither. *)
+(* A certainly nearest site is possibly nearest; a site that is certainly not nearest is neither. *)
 Theorem int_in_pos N B i c : int N B i c -> pos N B i c.
 Proof.
   intros H k K. destruct (Nat.eq_dec k i) as [-> | D]; [apply ds_le_dl |].

@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* Sides of a circle, for each point by itself, that make a pair an edge: half-planes, and rectangles across the direction
-   to the centre [TOL-7]. *)
+(* Sides of a circle, for each point separately, that make a pair an edge: half-planes, and rectangles across the
+   direction to the centre [TOL-7]. *)
 From Coq Require Import Reals Lra Psatz.
 From Dyadel Require Import Plane Distance Cells Legal.
 Open Scope R_scope.
@@ -31,8 +31,8 @@ Proof.
   destruct (Rle_or_lt 0 x); [right | left]; nra.
 Qed.
 
-(* Each point on its side: the pair is an edge. Sides are told for each point by itself, in two coordinates at right angles, so
-   the chance of all is the product over points and coordinates. *)
+(* Each point on its side: the pair is an edge. Sides are decided for each point separately, in two coordinates at right
+   angles, so the chance of all is the product over points and coordinates. *)
 Theorem sides_make_edge N q i j c m : 0 <= m ->
   (forall k, (k < N)%nat -> k <> i -> k <> j -> exists u, dot u u = 1 /\ m < ahead_of c u (q k)) ->
   (forall k, k = i \/ k = j -> exists u a b h, dot u u = 1 /\ a * a + h * h <= m * m /\ b * b + h * h <= m * m /\

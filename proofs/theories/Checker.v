@@ -9,7 +9,7 @@ Open Scope Z_scope.
 (* man * 2^expo / den, as the certificate writes it. *)
 Record number : Type := Number { man : Z; expo : Z; den : Z }.
 
-(* A site: its number and the ends of its rectangle. Aliases are left out. *)
+(* A site: its number and the ends of its rectangle. Aliases are omitted. *)
 Record site : Type := Site { name : Z; left : number; right : number; low : number; high : number }.
 
 (* A legal pair and its witness. *)

@@ -1,7 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* The tenth part of the checker of certificates: quotients of polynomials with integer coefficients in leaves x0,
-  x1, ...,
-   reduced by what is known of powers of leaves. CheckerAlgebraSound.v says what follows. *)
+(* The tenth part of the checker of certificates: quotients of polynomials with integer coefficients in leaves x0, x1,
+   ..., reduced by the known relations of powers of leaves. CheckerAlgebraSound.v says what follows. *)
 From Coq Require Import ZArith NArith List Bool.
 From Dyadel Require Import CheckerEnclosure.
 Import ListNotations.

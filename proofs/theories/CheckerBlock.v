@@ -192,12 +192,12 @@ Definition angle (a : Z) (x : known) : option (quotient_of * quotient_of * list 
     end
   end.
 
-(* What is no quotient in leaves is refused: a cosine that is none of the leaf's, a hyperbolic sine without its
-   exponential. *)
+(* A number that is not a quotient in leaves is refused: a cosine that is none of the leaf's, a hyperbolic sine without
+   its exponential. *)
 Definition seen (x : known) (l : list leaf) : option (known * list leaf) :=
   match is x with Some _ => Some (x, l) | None => None end.
 
-(* exp of what is x; f: the leaf that it makes when there is none. *)
+(* exp of a number known as x; f: the leaf that it makes when there is none. *)
 Definition exp_known (f : kind) (x : known) : option (quotient_of * list leaf) :=
   match is x with
   | None => None
@@ -318,7 +318,7 @@ Definition is_in_domain (f : inverse_function) (x : known) : bool :=
   | Arctangent => true
   end.
 
-(* f of number a, which is x: nothing is known of it but its interval, and that it is f of equal numbers. *)
+(* f of number a, known as x: only its interval is known, and that it is f of equal numbers. *)
 Definition inverse_known (f : inverse_function) (a : Z) (x : known) : option (known * list leaf) :=
   let y := inverse_value most root_hint u pi2 f (within x) in
   match is x with

@@ -49,7 +49,7 @@ Definition described (k : Z) (o : line) : Prop :=
 Definition is_stated (s : stated) (x : R) : Prop :=
   match s with Some (p, q) => value_of l q <> 0 /\ x = value_of l p / value_of l q | None => True end.
 
-(* The operation is defined there; a root is the only one between the ends; what is stated of the number is true. *)
+(* The operation is defined there; a root is the only one between the ends; the statements on the number are true. *)
 Definition defined (k : Z) (o : line) : Prop :=
   match o with
   | Value p q => value_of l q <> 0

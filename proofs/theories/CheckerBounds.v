@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* The third part of the checker of certificates: the bounds of area and Hausdorff distance where the pairs listed are all
-   possible ones, legal or open. CheckerBoundsSound.v says what they mean. *)
+(* The third part of the checker of certificates: the bounds of area and Hausdorff distance where the pairs listed are
+   all possible ones, legal or open. CheckerBoundsSound.v states their meaning. *)
 From Coq Require Import ZArith List Bool.
 From Dyadel Require Import Checker.
 Import ListNotations.

@@ -1,7 +1,7 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
 (* The fifth part of the checker of certificates: chains. CheckerChainSound.v says what follows from one that holds: no
-   centre on it is possibly nearest to one of the two sites, and their pair is illegal. What is said of the whole certificate
-   needs no chain, see CheckerCover.v; a certificate with a chain that does not hold is refused all the same. *)
+   centre on it is possibly nearest to one of the two sites, and their pair is illegal. The theorem on the whole
+   certificate needs no chain, see CheckerCover.v; a certificate with a chain that does not hold is still refused. *)
 From Coq Require Import ZArith List Bool.
 From Dyadel Require Import Checker CheckerCover.
 Import ListNotations.

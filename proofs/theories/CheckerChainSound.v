@@ -17,7 +17,7 @@ Proof.
     apply Rmult_le_compat_r; lra.
 Qed.
 
-(* What is known of a chain that is not among the broken ones. *)
+(* The facts known of a chain that is not among the broken ones. *)
 Lemma kept_chain D E l edges B chains c a b :
   check D E l edges = true -> describes l B -> In c chains -> ~ In c (broken_chains D E l chains) ->
   named l a (one c) -> named l b (other c) -> exists bs i j t, scaled_sites D E l = Some bs /\ 0 < unit D E /\

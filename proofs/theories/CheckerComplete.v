@@ -113,7 +113,7 @@ Proof.
   - destruct (IH H) as [E | [k K]]; [left; exact E |]. right. exists k. now right.
 Qed.
 
-(* ---- maps hold only what was put in ---- *)
+(* ---- maps hold only the entries put in ---- *)
 
 Lemma map_triangles_in l k t : Map.find k (map_triangles l) = Some t -> In t l.
 Proof.
@@ -350,7 +350,7 @@ Qed.
 
 (* ---- triangles ---- *)
 
-(* What is known of a face of a fan. *)
+(* The facts known of a face of a fan. *)
 Definition good_face (a i j : Z) : Prop :=
   is_legal (map_edges edges) a i = true /\ is_legal (map_edges edges) a j = true /\
   is_legal (map_edges edges) i j = true /\

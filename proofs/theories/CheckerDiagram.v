@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* The sixth part of the checker of certificates: inner polygons of the Voronoi diagram, and the area that they leave of a
-   window. CheckerDiagramSound.v says what they mean. *)
+(* The sixth part of the checker of certificates: inner polygons of the Voronoi diagram, and the area that they leave of
+   a window. CheckerDiagramSound.v states their meaning. *)
 From Coq Require Import ZArith List Bool.
 From Dyadel Require Import Checker CheckerBounds.
 Import ListNotations.

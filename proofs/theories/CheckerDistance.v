@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
 (* The seventh part of the checker of certificates: the distance of undetermined points to the Voronoi diagram, by boxes
-   that cover the window. CheckerDistanceSound.v says what it means. Roots are hints of any origin. *)
+   that cover the window. CheckerDistanceSound.v states its meaning. Roots are hints of any origin. *)
 From Coq Require Import ZArith List Bool.
 From Dyadel Require Import Checker CheckerBounds CheckerCover.
 Import ListNotations.
@@ -24,8 +24,7 @@ Definition least_of (l : list found_site) (first : Z) : Z := fold_left (fun m c 
 (* Are the two rectangles disjoint? *)
 Definition are_apart (a b : box) : bool := (x1 a <? x0 b) || (x1 b <? x0 a) || (y1 a <? y0 b) || (y1 b <? y0 a).
 
-(* Of the sites within the bound, those that are farthest to one side: one of them is disjoint from a rectangle when any
-   is. *)
+(* Of the sites within the bound, the farthest ones to one side: if any is disjoint from a rectangle, one of them is. *)
 Definition better (f : box -> box -> bool) (best c : far_site) : far_site := if f (exact best) (exact c) then c else best.
 Definition outermost (c : far_site) (l : list far_site) : list far_site :=
   map (fun f => fold_left (better f) l c)

@@ -149,7 +149,7 @@ Proof.
   assert (IZR q * IZR q * (S * S * (dl z (B k) * dl z (B k))) <= IZR q * IZR q * IZR most2) by (apply Rmult_le_compat_l; nra). lra.
 Qed.
 
-(* What is known of a possible site of a box. *)
+(* The facts known of a possible site of a box. *)
 Definition known (z : point) (a : possible_site) : Prop := forall k, stands (it a) k ->
   S * dl z (B k) <= IZR (reach_of a) /\
   (by_other a = true -> exists j, (j < N)%nat /\ VoronoiBounds.apart (B k) (B j) /\ dl z (B j) <= h).

@@ -1,8 +1,7 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
 (* The ninth part of the checker of certificates: intervals that hold real numbers, their ends in units of 1 / u,
-  rounded
-   outward. None: nothing is known. CheckerEnclosureSound.v says what follows. Roots and pi are hints of any origin.
-     *)
+   rounded outward. None: no bound is known. CheckerEnclosureSound.v says what follows.
+   Roots and pi are hints of any origin. *)
 From Coq Require Import ZArith List Bool.
 From Dyadel Require Import Checker.
 Import ListNotations.
@@ -71,7 +70,7 @@ Definition least (x y : interval) : interval :=
   match x, y with Some (a, b), Some (c, d) => Some (Z.min a c, Z.min b d) | _, _ => None end.
 Definition greatest (x y : interval) : interval := neg (least (neg x) (neg y)).
 
-(* What is between what is in x and what is in y. *)
+(* All numbers between one of x and one of y. *)
 Definition join (x y : interval) : interval :=
   match x, y with Some (a, _), Some (_, b) => Some (a, b) | _, _ => None end.
 
@@ -79,7 +78,7 @@ Definition join (x y : interval) : interval :=
 
 Definition cube (z : Z) : Z := z * z * z.
 
-(* Of what is at least 0. *)
+(* For a number of at least 0. *)
 Definition square_root (u : Z) (x : interval) : interval :=
   match x with
   | Some (a, b) =>
@@ -134,7 +133,7 @@ Fixpoint doubled_cosine (u : Z) (h : nat) (c : interval) : interval :=
 Fixpoint two_to (h : nat) : Z := match h with O => 1 | S m => 2 * two_to m end.
 Definition extent (x : interval) : Z := match x with Some (a, b) => Z.max (Z.abs a) (Z.abs b) | None => 0 end.
 
-(* Of what is between -1 and 1. *)
+(* For a number between -1 and 1. *)
 Definition within_one (u : Z) (x : interval) : interval :=
   match x with Some (a, b) => Some (Z.max (- u) a, Z.min u b) | None => None end.
 

@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* The checker as a program. Integers are those of Zarith, which stands on GMP: that and the extraction are trusted. *)
+(* The checker as a program. Integers are those of Zarith, which is built on GMP: it and the extraction are trusted. *)
 From Coq Require Import ZArith List Extraction ExtrOcamlBasic ExtrOcamlZBigInt.
 From Dyadel Require Import Checker CheckerFaces CheckerBounds CheckerCover CheckerChain CheckerTies CheckerDiagram CheckerDistance.
 From Dyadel Require Import CheckerStill CheckerEnclosure CheckerInverse CheckerAlgebra CheckerBlock CheckerVanish CheckerFacts.

@@ -1,7 +1,7 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* The second half of the checker of certificates: faces. It finds sites that are surrounded by sure triangles, or by sure
-   triangles and the sure hull; CheckerComplete.v says what follows: all other pairs of such a site are illegal.
-   Triangles, corners and fans are hints of any origin: those that do not hold are left out. *)
+(* The second half of the checker of certificates: faces. It finds sites that are surrounded by sure triangles, or by
+   sure triangles and the sure hull; CheckerComplete.v says what follows: all other pairs of such a site are illegal.
+   Triangles, corners and fans are hints of any origin: hints that do not hold are dropped. *)
 From Coq Require Import ZArith List Bool.
 From Dyadel Require Import Checker.
 Import ListNotations.
@@ -19,7 +19,7 @@ Record fan : Type := Fan { centre : Z; spokes : list Z; whole : bool }.
 (* Positive iff the lower left corners turn left. *)
 Definition turn (a b c : box) : Z := (x0 b - x0 a) * (y0 c - y0 a) - (y0 b - y0 a) * (x0 c - x0 a).
 
-(* ---- what is found in maps must be looked at again ---- *)
+(* ---- entries found in maps must be checked again ---- *)
 
 Definition code (i j : Z) : Z := Z.shiftl i 32 + j.
 
@@ -49,7 +49,7 @@ Definition top (u v : Z) (b : box) : Z := (if 0 <=? u then u * x1 b else u * x0 
 Definition bottom (u v : Z) (b : box) : Z :=
   (if 0 <=? u then u * x0 b else u * x1 b) + (if 0 <=? v then v * y0 b else v * y1 b).
 
-(* The greatest and the least turn a b k, for points k of the box h in place of lower left corners. *)
+(* The greatest and the least turn a b k, for points k of the box h instead of lower left corners. *)
 Definition turn_most (a b h : box) : Z :=
   let u := y0 a - y0 b in let v := x0 b - x0 a in top u v h - (u * x0 a + v * y0 a).
 Definition turn_least (a b h : box) : Z :=
@@ -144,7 +144,7 @@ Definition surrounded (D E : Z) (sites : list site) (edges : list edge) (triangl
   | None => []
   end.
 
-(* Is every site the centre of one of these fans? Of those that are not, any two are a legal pair. *)
+(* Tests that every site is the centre of one of these fans; any two sites that are not must be a legal pair. *)
 Definition all_surrounded (sites : list site) (edges : list edge) (found : list fan) : bool :=
   let m := index centre found in let legal := map_edges edges in
   let rest := kept (fun s => match Map.find (name s) m with Some _ => false | None => true end) sites in

@@ -7,7 +7,7 @@ From Dyadel Require Import Checker CheckerEnclosure CheckerAlgebra CheckerBlock 
 Import ListNotations.
 Open Scope Z_scope.
 
-(* What is written, as a fraction; den > 0. *)
+(* The number as written, as a fraction; den > 0. *)
 Definition fraction_of (n : number) : Z * Z := (Z.shiftl (man n) (Z.max 0 (expo n)),
   Z.shiftl (den n) (Z.max 0 (- expo n))).
 
@@ -69,7 +69,7 @@ Definition square (x : known) : known :=
   Known (mul most u (absolute (within x)) (absolute (within x))) (mul_q (is x) (is x)).
 Definition norm (x y : known) : known := sum_with (square x) (square y).
 
-(* Of a circle through a, with the steps v, w to b, c: what is 0 for the step d to a point on it is
+(* For a circle through a, with the steps v, w to b, c: the term that is 0 for the step d to a point on it is
    dx along_x + dy along_y + d^2 (v x w). *)
 Record circle_base : Type := Base { along_x : known; along_y : known; area : known }.
 Definition base_of (a b c : place) : circle_base :=

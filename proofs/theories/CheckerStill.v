@@ -6,7 +6,7 @@ From Dyadel Require Import Checker CheckerTies.
 Import ListNotations.
 Open Scope Z_scope.
 
-(* Boxes that may be narrowed, by name: they are no points, and not among the sites that stay. *)
+(* Boxes that may be narrowed, by name: they are not points, and not among the sites that stay. *)
 Definition movable (still : list Z) (boxes : list box) : list box :=
   let m := index (fun i => i) still in
   kept (fun b => negb (is_point b) && match Map.find (box_name b) m with Some _ => false | None => true end) boxes.
@@ -25,8 +25,8 @@ Definition movable_partners (moves : Map.t box) (listed : list edge) : Map.t (li
 
 Definition is_point_of (m : Map.t box) (i : Z) : bool := match Map.find i m with Some b => is_point b | None => false end.
 
-(* An open pair that nothing changes: both sites stay, and nobody that may be narrowed is in a pair with both; if one of
-   them is no point, nor with either. *)
+(* An open pair that nothing changes: both sites stay, and no site that may be narrowed is in a pair with both; if one
+   of them is not a point, nor with either. *)
 Definition stays_open (m moves : Map.t box) (near : Map.t (list Z)) (e : edge) : bool :=
   let a := partners near (from e) in let b := partners near (to e) in
   negb (is_in moves (from e)) && negb (is_in moves (to e)) &&

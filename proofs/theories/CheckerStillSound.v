@@ -79,7 +79,7 @@ Proof.
 Qed.
 End Partners.
 
-(* ---- who may be narrowed ---- *)
+(* ---- the sites that may be narrowed ---- *)
 
 Section Still.
 Variables (D E : Z) (l : list site) (edges : list edge) (B B' : sites) (still : list Z).
@@ -115,7 +115,7 @@ Proof.
   apply (is_in_index box_name) in I. rewrite M in I. congruence.
 Qed.
 
-(* When nobody may be, nothing at all changes. *)
+(* When no site may be narrowed, no rectangle changes. *)
 Lemma all_stay k : (k < N)%nat -> some = [] -> B' k = B k.
 Proof.
   intros K H. destruct (nth_error l k) as [s |] eqn:S; [| now apply nth_error_None in S; lia].

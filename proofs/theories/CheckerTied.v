@@ -1,14 +1,14 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* The thirteenth part of the checker of certificates: ties of points that a block shows to be on one circle with nobody
-   inside, or on one line with nobody beyond. CheckerTiedSound.v says what follows. Which set shows a pair to be a tie, and
-   which of its sites do so, are hints of any origin. *)
+(* The thirteenth part of the checker of certificates: ties of points that a block shows to be on one circle with no
+   site inside, or on one line with no site beyond. CheckerTiedSound.v says what follows. Which set shows a pair to be a
+   tie, and which of its sites do so, are hints of any origin. *)
 From Coq Require Import ZArith List Bool.
 From Dyadel Require Import Checker CheckerTies CheckerEnclosure CheckerAlgebra CheckerBlock CheckerVanish CheckerFacts.
 Import ListNotations.
 Open Scope Z_scope.
 
-(* A fact, and the sites that it is about; what is known of the numbers of its block, units of them in 1, and hints of
-   what is 0. *)
+(* A fact, and the sites that it is about; the facts known of the numbers of its block, units of them in 1, and hints of
+   which polynomials are 0. *)
 Record tied_set : Type := TiedSet { units : Z; block : state; null_hint : poly -> cofactor; says : fact; site_names : list Z }.
 
 Definition places_of (f : fact) : list place :=
@@ -23,7 +23,7 @@ Section Tied.
 Variable most : Z.
 Variable D E : Z.
 
-(* All numbers of a side of a box, and what is known of one but for its enclosure left out. *)
+(* All numbers of a side of a box; and the knowledge of a number reduced to its enclosure. *)
 Definition side_known (u lo hi : Z) : known :=
   let d := Z.shiftl D (Z.max 0 E) in let z := fun n => fraction u (Z.shiftl n (Z.max 0 (- E))) d in
   Known (join (z lo) (z hi)) None.

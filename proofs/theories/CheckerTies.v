@@ -6,7 +6,7 @@ From Dyadel Require Import Checker CheckerFaces CheckerCover.
 Import ListNotations.
 Open Scope Z_scope.
 
-(* A circle about a centre (a line, when it is at infinity) through both sites of a pair, with nobody inside; and two
+(* A circle about a centre (a line, when it is at infinity) through both sites of a pair, with no site inside; and two
    sites, or one, that the pair's segment meets: by weights a point of it is a point between them. *)
 Record tie : Type := Tie { about : spot; near_side : Z; far_side : Z; weight_from : Z; weight_to : Z; weight_near : Z;
                            weight_far : Z }.
@@ -16,7 +16,7 @@ Definition is_point (b : box) : bool := (x0 b =? x1 b) && (y0 b =? y1 b).
 Definition is_centre_of (g : spot) (f : Z) : bool :=
   if 0 <? sw g then 0 <? f else (sw g =? 0) && negb ((sx g =? 0) && (sy g =? 0)).
 
-(* Whatever the points are, are both on one circle, or line, with nobody inside, or beyond? *)
+(* Tests that wherever the points are, both are on one circle (line) with no site inside (beyond). *)
 Definition on_empty_circle (t : tree) (g : spot) (a b : box) : bool :=
   let f := Z.max (far g a) (far g b) in
   let off := fun k => f <=? near g k in

@@ -22,7 +22,7 @@ Qed.
 
 (* ---- one centre ---- *)
 
-(* Who is not nearer than a is, in integers, is not nearer. *)
+(* A site that is not nearer than a in integers is not nearer. *)
 Lemma spot_before S g a k A K x y : (0 <= sw g)%Z -> bounds S a A -> bounds S k K -> (far g a <= near g k)%Z ->
   inside x A -> inside y K -> level (of_spot g) (S * fst x, S * snd x) <= level (of_spot g) (S * fst y, S * snd y).
 Proof.
@@ -178,7 +178,7 @@ Proof.
     + assert (0 <= V * V) by apply Rle_0_sqr. apply (Rmult_le_compat_r (V * V)) in Hq; [| assumption]. lra.
 Qed.
 
-(* What is an edge weakly, and not strictly, by one choice in narrower rectangles: the pair is possible there, and not
+(* A pair that is an edge weakly, and not strictly, by one choice in narrower rectangles: it is possible there, and not
    legal. *)
 Lemma tied_by_choice n B B' a b p : (a < n)%nat -> (b < n)%nat -> refined n B' B -> choice n B' p ->
   (choice n B p -> weak_edge n p a b /\ ~ strict_edge n p a b) -> possible n B' a b /\ ~ legal n B' a b.

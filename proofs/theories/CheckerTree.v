@@ -1,8 +1,8 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* What makes the checker of certificates quick: a tree of boxes answers a question about all boxes of a list by looking at
-   few of them, and an index finds things by a number. Nothing here is a hint from outside: both are made from the list,
-   and the theorems say that none of it is left out. No function is recursive but at its end, or in the depth of a tree:
-   lists are long. *)
+(* What makes the checker of certificates quick: a tree of boxes answers a question about all boxes of a list by looking
+   at few of them, and an index finds things by a number. Nothing here is a hint from outside: both are made from the
+   list, and the theorems say that none of it is omitted. No function is recursive but at its end, or in the depth of a
+   tree: lists are long. *)
 From Coq Require Import ZArith List Bool Lia FMapAVL OrderedTypeEx.
 Import ListNotations.
 Open Scope Z_scope.
@@ -137,14 +137,14 @@ Fixpoint build (depth : nat) (l : list box) : tree :=
 Definition deepest : nat.
 Proof. exact 400%nat. Qed.
 
-(* Do all boxes pass the test? `passes` may tell of a box that whatever it covers does. *)
+(* Tests that all boxes pass the test. `passes` may show of a box that all boxes it covers do. *)
 Fixpoint all_in (passes test : box -> bool) (t : tree) : bool :=
   match t with
   | Leaf l => forallb test l
   | Node h s t => passes h || (all_in passes test s && all_in passes test t)
   end.
 
-(* Of each box: it has been looked at, or one that covers it. *)
+(* Each box has been tested, or one that covers it. *)
 Lemma all_in_or passes test b : forall depth l, all_in passes test (build depth l) = true -> In b l ->
   test b = true \/ exists h, covers h b /\ passes h = true.
 Proof.

@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* What vanishes is 0, whatever cofactors are told, and of any origin. *)
+(* A polynomial that vanishes is 0, whatever cofactors are given, and of any origin. *)
 From Coq Require Import Reals Lra Lia ZArith NArith List Bool.
 From Dyadel Require Import CheckerEnclosure CheckerEnclosureSound CheckerAlgebra CheckerAlgebraSound CheckerVanish.
 Import ListNotations.
@@ -39,7 +39,7 @@ Proof. intros [N ->] V. rewrite (vanishing_zero p h V). field. exact N. Qed.
 
 End Sound.
 
-(* ---- examples: x and y are both the root of 2, z is the third root of what is 0; units of 2^-30 ---- *)
+(* ---- examples: x and y are both the root of 2, z is the third root of a number that is 0; units of 2^-30 ---- *)
 
 Section Examples.
 

@@ -205,7 +205,7 @@ Proof.
   rewrite H. field; exact D.
 Qed.
 
-(** ** What is computed solves the equations *)
+(** ** The computed centre solves the equations *)
 
 Lemma rational_correct x y d : d <> 0%Z -> good (rational x y d) /\
   cx (rational x y d) = IZR x / IZR d /\ cy (rational x y d) = IZR y / IZR d.

@@ -90,7 +90,7 @@ Proof.
   intros k K. rewrite disc_value, <- dist_sq. pose proof (Out k K). nra.
 Qed.
 
-(* So a pair that crosses a legal edge for some choice is no edge of that choice. *)
+(* So a pair that crosses a legal edge for some choice is not an edge of that choice. *)
 Corollary legal_edges_are_not_crossed N B p i j a b z :
   (i < N)%nat -> (j < N)%nat -> (a < N)%nat -> (b < N)%nat -> a <> i -> a <> j -> b <> i -> b <> j ->
   legal N B i j -> choice N B p -> between z (p i) (p j) -> between z (p a) (p b) -> ~ disc_edge N p a b.

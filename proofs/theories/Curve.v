@@ -45,7 +45,7 @@ Qed.
 
 Definition at_ (u v : point) (s t : R) : point := (s * fst u + t * fst v, s * snd u + t * snd v).
 
-(* u, v are unit vectors at a right angle; sigma tells which way round. *)
+(* u, v are unit vectors at a right angle; sigma is the direction of the turn. *)
 Definition frame (u v : point) (sigma : R) : Prop :=
   (forall p q, dist2 p q = (dot u p - dot u q) * (dot u p - dot u q) + (dot v p - dot v q) * (dot v p - dot v q)) /\
   (forall s t, dot u (at_ u v s t) = s /\ dot v (at_ u v s t) = t) /\

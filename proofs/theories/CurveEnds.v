@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
 (* The two ends of the curve of centres [COV-1]: far out it is a ray, in one of the two directions in which both
-   rectangles are equally high; who is beyond that height blocks all near the end. *)
+   rectangles are equally high; a site beyond that height blocks all near the end. *)
 From Coq Require Import Reals Lra Lia Psatz List Classical.
 From Dyadel Require Import Plane Distance Cells Orientation Disc Curve CriticalExists Nerve Facing CurveWalk.
 Open Scope R_scope.
@@ -14,7 +14,7 @@ Proof.
   unfold Rdiv in L. rewrite Rmult_assoc, Rinv_l in L; lra.
 Qed.
 
-(* From some place on, what is beyond the height of q in direction w is nearer than q. *)
+(* From some place on, a site beyond the height of q in direction w is nearer than q. *)
 Lemma beyond_is_nearer o w q K : dot w q < dot w (lowest w K) ->
   exists S, forall s, S <= s -> dl (along o w s) K < dist (along o w s) q.
 Proof.
@@ -236,7 +236,7 @@ Proof.
   - intros ->. pose proof (curve_equal (1, 0) (0, 1) 1 frame_right C Y Z _ P S t) as E. rewrite At in E. exact E.
 Qed.
 
-(* A direction shows the pair possible iff an end is blocked by nobody. *)
+(* A direction shows the pair possible iff an end is blocked by no site. *)
 Theorem ends_exact N B i j : (i < N)%nat -> (j < N)%nat -> xhi (B i) < xlo (B j) ->
   (exists u, possible_far N B (pair i j) u /\ dot u (highest u (B i)) = dot u (highest u (B j))) <->
   (forall k, (k < N)%nat -> ~ blocks_end (B i) (end_down (B i) (B j)) (B k)) \/
@@ -323,7 +323,7 @@ Proof.
   split; apply H.
 Qed.
 
-(* A chain [COV-2]: the first blocks the one end, the last the other end, what each of them blocks is connected, and
+(* A chain [COV-2]: the first blocks the one end, the last the other end, the part that each blocks is connected, and
    each two neighbours block a common place. Then the pair is not possible. *)
 Theorem chain_refutes N B i j (g : R -> R) (k : nat -> nat) n : (i < N)%nat -> (j < N)%nat -> xhi (B i) < xlo (B j) ->
   (forall x t, ds (x, t) (B i) = ds (x, t) (B j) <-> x = g t) -> (forall m, (m <= n)%nat -> (k m < N)%nat) ->

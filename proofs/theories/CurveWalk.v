@@ -1,11 +1,11 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* The walk along the curve of centres [COV-1]: from the blocker of a place to its next circle, until nobody blocks, or
+(* The walk along the curve of centres [COV-1]: from the blocker of a place to its next circle, until no site blocks, or
    the blocker has no circle beyond. *)
 From Coq Require Import Reals Lra Lia Psatz List Classical Wellfounded.
 From Dyadel Require Import Plane Distance Cells Legal Nerve Path Facing.
 Open Scope R_scope.
 
-(* The place at which what is positive at a stops to be so. *)
+(* The place at which a function that is positive at a stops being positive. *)
 Lemma first_stop (h : R -> R) a t : continuity h -> 0 < h a -> h t <= 0 -> a < t ->
   exists c, a < c <= t /\ h c = 0 /\ forall s, a <= s < c -> 0 < h s.
 Proof.
@@ -54,8 +54,7 @@ Definition blocks_at (k : nat) (s : spot) : Prop := match s with Start => blocks
 Definition next (k : nat) (s : spot) (c : R) : Prop :=
   In c (circles k) /\ beyond s c /\ forall d, In d (circles k) -> beyond s d -> c <= d.
 
-(* What the walk says from a place on: true for a place that nobody blocks, false where a blocker has no circle
-  beyond. *)
+(* The walk's answer from a place: true where no site blocks the place, false where a blocker has no circle beyond. *)
 Inductive walks : spot -> bool -> Prop :=
 | walks_free s : (forall k, (k < n)%nat -> ~ blocks_at k s) -> walks s true
 | walks_out s k : (k < n)%nat -> blocks_at k s -> (forall d, In d (circles k) -> ~ beyond s d) -> walks s false
@@ -91,7 +90,7 @@ Proof.
     apply (blocks_until k s t K Bl T). intros d D Bd. specialize (Least d D Bd). lra.
 Qed.
 
-(* ... "yes": a place is blocked by nobody, or the start is. *)
+(* ... "yes": a place is blocked by no site, or the start is. *)
 Lemma walk_yes s said : walks s said -> said = true ->
   (s = Start /\ forall k, (k < n)%nat -> ~ blocks_start k) \/ exists t, ~ blocked t.
 Proof.
@@ -146,7 +145,7 @@ Proof.
   - exists true. apply walks_free. intros k K Bl. apply No. now exists k.
 Qed.
 
-(* Where somebody blocks the start, the walk says whether a place is blocked by nobody. *)
+(* Where a site blocks the start, the walk says whether there is a place that no site blocks. *)
 Theorem walk_exact said : walks Start said -> (exists k, (k < n)%nat /\ blocks_start k) ->
   (said = true <-> exists t, ~ blocked t).
 Proof.
@@ -156,7 +155,7 @@ Proof.
 Qed.
 End Walk.
 
-(* The pair is possible iff nobody blocks the one end of the curve, or the other, or the walk from the first says so. *)
+(* The pair is possible iff no site blocks one end of the curve, or the other, or the walk from the first says so. *)
 Theorem walk_possible N B i j (beta : R -> point) (circles : nat -> list R) (blocks_start blocks_stop : nat -> Prop) :
   (i < N)%nat -> (j < N)%nat ->
   continuity (fun t => fst (beta t)) -> continuity (fun t => snd (beta t)) ->

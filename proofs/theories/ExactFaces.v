@@ -112,7 +112,7 @@ Proof.
     destruct (circles_meet_twice o w (p i) (p j) (p m) Dow D Eo Ew); try lra; contradiction.
 Qed.
 
-(* An empty circle and a line with nobody beyond: the same. *)
+(* An empty circle and a line with no site beyond: the same. *)
 Theorem circle_and_line_legal N B p o i j : (i < N)%nat -> (j < N)%nat ->
   (forall k, (k < N)%nat -> exact (B k) (p k)) ->
   (forall k, (k < N)%nat -> k <> i -> k <> j -> p k <> p i /\ p k <> p j) -> p i <> p j ->
@@ -125,7 +125,7 @@ Proof.
   - intros m M Mi Mj z Z. rewrite (proj2 (Ex m M) z Z). now apply Left.
 Qed.
 
-(* Two lines with nobody beyond have one place in common, when neither runs along the other. *)
+(* Two lines with no site beyond have one place in common, when neither runs along the other. *)
 Theorem two_lines_meet_once u v a b : fst u * snd v - snd u * fst v <> 0 -> dot u a = dot u b -> dot v a = dot v b -> a = b.
 Proof.
   intros D U V. unfold dot in U, V. destruct a as [a1 a2], b as [b1 b2]. simpl in *.

@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
 (* A face of exact points, joined across edges that are not certain: all of it are triangles of one empty circle, or all
-   of it are ghost triangles along one line with nobody beyond [CLO-2]. *)
+   of it are ghost triangles along one line with no site beyond [CLO-2]. *)
 From Coq Require Import Reals Lra Psatz Classical List.
 From Dyadel Require Import Plane Distance Cells Legal Nerve Orientation Fan TiedFace TiedRim TiedExact ExactFaces.
 Open Scope R_scope.
@@ -98,7 +98,7 @@ Proof.
     unfold about in Out. lra.
 Qed.
 
-(* With a ghost triangle: nothing else, and all vertices on its line, beyond which nobody is. *)
+(* With a ghost triangle: nothing else, and all vertices on its line, with no site beyond. *)
 Theorem line_face a b : In (a, b) H ->
   T = nil /\ exists u m, empty_half_plane N p (face_vertex T H) u m.
 Proof.

@@ -7,7 +7,7 @@ Open Scope R_scope.
 (* k blocks c: every point of R_k is nearer to c than R_i. *)
 Definition blocks (c : point) (X K : rect) : Prop := dl c K < ds c X.
 
-(* The pair is possible iff a centre at equal distances, or a direction, is blocked by nobody. *)
+(* The pair is possible iff a centre at equal distances, or a direction, is blocked by no site. *)
 Theorem possible_unblocked N B i j : (i < N)%nat -> (j < N)%nat ->
   (possible N B i j <-> (exists c, ds c (B i) = ds c (B j) /\ forall k, (k < N)%nat -> k <> i -> k <> j -> ~ blocks c
     (B i) (B k)) \/
@@ -95,7 +95,7 @@ Proof.
   unfold blocks. intros E Z [H | H] Bl; pose proof (le_dl c K z Z); pose proof (ds_le c _ z H); lra.
 Qed.
 
-(* What is blocked is open, and at its ends the three distances are equal: the centre of a critical circle CCF. *)
+(* The set of blocked places is open; at its ends the three distances are equal: the centre of a critical circle CCF. *)
 Theorem blocked_open c X K : blocks c X K -> exists e, 0 < e /\ forall x, dist c x < e -> blocks x X K.
 Proof.
   unfold blocks. intros H. exists ((ds c X - dl c K) / 2). split; [lra |]. intros x D.

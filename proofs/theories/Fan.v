@@ -54,7 +54,7 @@ Section Fan.
 Variables (N : nat) (B : sites) (a b : nat) (faces : list (nat * nat)).
 Variables (Ha : (a < N)%nat) (Hb : (b < N)%nat).
 
-(* The three edges of each face are legal; b is no vertex of it. *)
+(* The three edges of each face are legal; b is not a vertex of it. *)
 Definition legal_faces : Prop := forall i j, In (i, j) faces ->
   (i < N)%nat /\ (j < N)%nat /\ i <> a /\ j <> a /\ i <> j /\ b <> a /\ b <> i /\ b <> j /\
   legal N B a i /\ legal N B a j /\ legal N B i j.

@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* What a fat rectangle meets beside an edge: the disc of the witness lies in the two discs, or in the disc and the
-   half-plane, beside the edge [WIT-FAT]. *)
+(* The part next to an edge that a fat rectangle meets: the disc of the witness lies in the two discs, or in the disc
+   and the half-plane, next to the edge [WIT-FAT]. *)
 From Coq Require Import Reals Lra Psatz Classical.
 From Dyadel Require Import Plane Distance Orientation TiedFace.
 Open Scope R_scope.
@@ -25,7 +25,7 @@ Proof.
   apply Rnot_lt_le. intros O. assert (0 <= t * orient p q z) by (apply Rmult_le_pos; lra). lra.
 Qed.
 
-(* What is within e of the disc is within e of one of the two; *)
+(* A point within e of the disc is within e of one of the two; *)
 Lemma near_disc c r e x : 0 <= r -> 0 <= e -> dist c x <= r + e -> exists z, dist c z <= r /\ dist z x <= e.
 Proof.
   intros R E H. destruct (Rle_dec (dist c x) r) as [L | L]; [exists x; rewrite dist_self; lra |].

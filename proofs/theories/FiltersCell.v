@@ -23,7 +23,7 @@ Proof.
   replace (2 * x) with (x * val (lit c_cell_two)) by (rewrite E; ring). apply iv_scale_contains; [rewrite E; lra|exact H].
 Qed.
 
-(** The quotient of two intervals holds whoever solves the linear equation. *)
+(** The quotient of two intervals holds each solution of the linear equation. *)
 Lemma iv_div_solves a b x y w : contains a x -> contains b y -> w * y = x -> contains (iv_div a b) w.
 Proof.
   intros A B E. destruct (Req_dec y 0) as [Z|Z].
@@ -43,7 +43,7 @@ Qed.
 Definition through (a b u v : R) : Prop := (u - a) * (u - a) + (v - b) * (v - b) = u * u + v * v.
 Definition touches (l u v : R) : Prop := (u - l) * (u - l) = u * u + v * v.
 
-(** What the functions below return: nothing is known, or the centres relative to p are in these boxes. *)
+(** The result of the functions below: None if no bound is known, or the centres relative to p are in these boxes. *)
 Definition roots : Type := option (list (iv * iv)).
 Definition holds_root (found : roots) (u v : R) : Prop :=
   match found with None => True | Some l => exists c, In c l /\ contains (fst c) u /\ contains (snd c) v end.
@@ -285,7 +285,7 @@ Proof.
     + rewrite F in G. destruct (hi upper) as [|[|]| |]; discriminate.
 Qed.
 
-(** Bounds that there are. *)
+(** Only bounds that exist count. *)
 Definition outside_slab (t p lower upper : iv) (has_lower has_upper : bool) : bool :=
   let place := iv_add t p in (has_lower && lt (hi place) (lo lower)) || (has_upper && gt (lo place) (hi upper)).
 Theorem outside_slab_correct t p lower upper x o low high has_lower has_upper : contains t x -> contains p o ->

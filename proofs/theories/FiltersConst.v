@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
 (** The constants of the filters: (m, e) is m * 2^e. tests of the suite `proofs` compare each with the C source: the
-    comment names the claim, the file, and the place, where {} stands for the constant. *)
+    comment names the claim, the file, and the place, where {} marks the constant. *)
 From Coq Require Import ZArith Reals Lra.
 From Flocq Require Import Core.
 From Dyadel Require Import FiltersBase FiltersError.

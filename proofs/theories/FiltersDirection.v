@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** [FLT-DIR] Heights along a direction in doubles: whoever reaches as far as v is visited; infinite boxes, overflow,
-    underflow and NaN included. *)
+(** [FLT-DIR] Heights along a direction in doubles: each site that reaches as far as v is visited; infinite boxes,
+    overflow, underflow and NaN included. *)
 From Coq Require Import Bool ZArith Reals Lia Lra Psatz.
 From Flocq Require Import Core Binary.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersOrient FiltersIncircleAt FiltersDistance

@@ -97,7 +97,7 @@ Qed.
   long top = u[0] == 0 ? e[1] : u[1] == 0 || e[0] > e[1] ? e[0] : e[1];
   for (int a = 0; a < 2; a++) u[a] = e[a] - top < -900 ? 0 : ldexp(u[a], (int)(e[a] - top));
 *)
-(** As a program: the first 53 of its bits, and how many are left out. *)
+(** As a program: the first 53 of its bits, and how many are dropped. *)
 Definition first_bits (W : Z) : Z * Z :=
   let more := (Zdigits2 W - 53)%Z in if (more <=? 0)%Z then (W, 0%Z) else (Z.quot W (2 ^ more), more).
 Definition component (W top : Z) : double :=
@@ -136,7 +136,7 @@ Lemma zero_component e : val (lit (0%Z, e)) = 0.
 Proof. reflexivity. Qed.
 End Zero.
 
-(** What is run is what the theorem is about. *)
+(** The theorem is about the program that is run. *)
 Theorem component_cut W top : W = 0%Z \/ (Zdigits2 W <= top)%Z -> val (component W top) = cut_component W top.
 Proof.
   intros T. unfold component, cut_component. destruct (Z.eq_dec W 0) as [->|N].

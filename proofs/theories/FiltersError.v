@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** Error bounds of rounded expressions: x' stands for x with |x| <= m when |x' - x| <= ((1+u)^k - 1) m + h. *)
+(** Error bounds of rounded expressions: x' approximates x with |x| <= m when |x' - x| <= ((1+u)^k - 1) m + h. *)
 From Coq Require Import ZArith Reals Lia Lra Psatz.
 From Flocq Require Import Core Relative Plus_error.
 From Dyadel Require Import FiltersBase.

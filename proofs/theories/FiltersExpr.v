@@ -7,7 +7,7 @@ From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersDistance
   FiltersIntervalCircle FiltersIntervalRoot FiltersScale FiltersStar.
 Open Scope R_scope.
 
-(** What is between finite ends. *)
+(** A number between finite ends. *)
 Definition holds (a : iv) (x : R) : Prop := finite (lo a) /\ finite (hi a) /\ val (lo a) <= x <= val (hi a).
 Definition good (a : iv) : Prop := finite (lo a) /\ finite (hi a).
 

@@ -84,7 +84,7 @@ Proof.
 Qed.
 End Infinite.
 
-(** What is not good stays so. *)
+(** An interval that is not good stays so. *)
 Lemma span_mul_good r a x : sane r -> holds a x -> good (span_mul r a) -> good r.
 Proof.
   intros [S1 S2] (A0 & A1 & A2 & A3). destruct zero_lit as [Fz Vz]. unfold span_mul.

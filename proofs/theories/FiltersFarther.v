@@ -9,7 +9,7 @@ Open Scope R_scope.
 (* [FLT-FAR] src/legal/witness_filter.c: twice = {{} * c.lo, *)
 (* [FLT-FAR] src/legal/witness_filter.c: twice = {2 * c.lo, {} * c.hi}; *)
 Definition c_far_two : const := (1, 1)%Z.
-(* The rest of that file guesses; what it returns is proved [LEG-1] [WIT-FLT]: *)
+(* The rest of that file guesses; its result is proved [LEG-1] [WIT-FLT]: *)
 (* any src/legal/witness_filter.c: noise = q->size * {}; *)
 (* any src/legal/witness_filter.c: bound <= {}; bound *)
 (* C src/legal/witness_filter.c farther_along

@@ -60,7 +60,7 @@ Definition filter_round (a : iv) (bits : Z) : option iv :=
     then Some {| lo := (ffloor l * down + lit c_grid_zero)%D; hi := (fceil h * down + lit c_grid_zero)%D |}
     else Some a.
 
-(** ** What is a double *)
+(** ** Numbers that are doubles *)
 
 Lemma format_scaled_up x k : (0 <= k)%Z -> format x -> format (x * bpow radix2 k).
 Proof.
@@ -179,7 +179,7 @@ Proof.
   rewrite <- Rmult_minus_distr_r. apply Rmult_le_compat_r; lra.
 Qed.
 
-(** ** What is run *)
+(** ** The program that is run *)
 
 Section Power.
 Local Transparent lit.

@@ -74,7 +74,7 @@ Proof.
     destruct (is_finite 53 1024 (lo b)) eqn:G; [|lra]. specialize (B1 eq_refl). apply C; lra.
 Qed.
 
-(** Quotients of the numbers of a and of b; nothing is said when b may hold 0. *)
+(** Quotients of the numbers of a and of b; no statement is made when b may hold 0. *)
 Theorem iv_div_contains a b x y : contains a x -> contains b y -> contains (iv_div a b) (x / y).
 Proof.
   intros [[_ A1] [_ A2]] B. unfold iv_div.

@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** [WIT-NEAR] [WIT-HULL] An edge certified by the triangles beside it, in real numbers: the geometry of
+(** [WIT-NEAR] [WIT-HULL] An edge certified by the triangles next to it, in real numbers: the geometry of
     dyd_filter_edge_near and dyd_filter_hull_edge_near. What their rounding does is not treated here. *)
 From Coq Require Import Reals Lra Psatz.
 From Flocq Require Import Core.

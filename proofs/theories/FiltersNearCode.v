@@ -77,7 +77,7 @@ Proof.
   - exfalso. subst. discriminate.
 Qed.
 
-(** ** What is small does not overflow *)
+(** ** Small results do not overflow *)
 
 Lemma fmul_small x y : finite x -> finite y -> Rabs (val x * val y) <= 10 ^ 190 ->
   finite (x * y)%D /\ val (x * y)%D = rnd (val x * val y).
@@ -123,7 +123,7 @@ Proof.
   apply Rle_trans with (1 := rnd_upper (10 ^ 31) ltac:(lra)). unfold u; lra.
 Qed.
 
-(** Vectors of a triangle beside the edge: squares in terms of the cross product. *)
+(** Vectors of a triangle next to the edge: squares in terms of the cross product. *)
 Lemma squares_from_side jx jy ux uy S : 39 / 10 ^ 32 <= jx * uy - jy * ux -> Lift jx jy <= S -> S <= 10 ^ 30 ->
   15 / 10 ^ 92 <= Lift ux uy /\ 15 / 10 ^ 92 <= Lift (jx - ux) (jy - uy).
 Proof.

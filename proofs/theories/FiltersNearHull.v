@@ -195,7 +195,7 @@ Proof.
 Qed.
 
 
-(** What is below 2^1024 by 10^-13 of itself does not overflow. *)
+(** A number that is at most 1 - 10^-13 times 2^1024 does not overflow. *)
 Lemma below_overflow x : 0 <= x <= bpow radix2 1024 * (1 - / 10 ^ 13) -> Rabs (rnd x) < bpow radix2 1024.
 Proof.
   intros H. rewrite Rabs_pos_eq by (apply rnd_pos; lra).

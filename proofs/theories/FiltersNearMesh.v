@@ -1,7 +1,7 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* The filters for an edge by the triangles beside it, in a Delaunay triangulation of the representatives: their circles
-   are empty, and who is as near to i and j as all neighbours in the mesh is as near as all others [WIT-NEAR]
-     [WIT-HULL]. *)
+(* The filters for an edge by the triangles next to it, in a Delaunay triangulation of the representatives: their
+   circles are empty, and a distance at most that to all neighbours of i and j in the mesh is at most that to all other
+   sites [WIT-NEAR] [WIT-HULL]. *)
 From Coq Require Import Reals Lra Lia.
 From Flocq Require Import Core Binary.
 From Dyadel Require Import Plane Distance Cells Legal Orientation TiedRim Inserted MeshNeighbours.

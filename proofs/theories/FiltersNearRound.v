@@ -35,7 +35,7 @@ Proof. numerals. lra. Qed.
 Lemma VV_big : 10 ^ 190 <= V * V / 2.
 Proof. pose proof V_big. assert (10 ^ 100 * 10 ^ 100 <= V * V) by (apply Rmult_le_compat; lra). lra. Qed.
 
-(** What is small does not overflow. *)
+(** A small number does not overflow. *)
 Lemma small_max x : Rabs x <= 10 ^ 190 -> Rabs (rnd x) < bpow radix2 1024.
 Proof. intros H. apply rnd_below_max. pose proof VV_big. lra. Qed.
 

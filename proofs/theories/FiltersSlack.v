@@ -235,7 +235,7 @@ Qed.
 
 (** ** Lower bounds of dl^2 *)
 
-(** What is left of f - s is at most r. *)
+(** The slack f - s that is left is at most r. *)
 Definition ls (s : R) (f : double) (r : R) : Prop :=
   (f = inf /\ W / 2 <= r) \/ (finite f /\ (0 < val f - s -> val f - s <= r)) \/ f = ninf.
 

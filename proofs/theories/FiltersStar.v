@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** [FLT-STAR] The distances that star_filter.c compares, in doubles: radii, the disc of an edge, who is outside of it;
-    overflow, underflow and NaN included. *)
+(** [FLT-STAR] The distances that star_filter.c compares, in doubles: radii, the disc of an edge, the sites outside of
+    it; overflow, underflow and NaN included. *)
 From Coq Require Import Bool ZArith Reals Lia Lra Psatz List.
 From Flocq Require Import Core BinarySingleNaN Binary Bits.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersOrient FiltersIncircle FiltersIncircleAt
@@ -168,7 +168,7 @@ Qed.
 
 (** ** The disc of an edge *)
 
-(* Where the centre comes from does not matter; what is run needs it. *)
+(* Where the centre comes from does not matter; the program that is run needs it. *)
 (* [FLT-STAR] src/legal/star_filter.c: dyd_xy c = {(a.x + b.x) * {}, (a.y *)
 (* [FLT-STAR] src/legal/star_filter.c: dyd_xy c = {(a.x + b.x) * 0.5, (a.y + b.y) * {}} *)
 Definition c_star_half : const := (1, -1)%Z.

@@ -29,7 +29,7 @@ Definition surely_lower (ux uy vx vy kx ky reach : double) : bool :=
   let need := (reach * fsqrt (upper (lift ux uy)) * lit c_up_factor)%D in
   let a := (ux * (vx - kx))%D in let b := (uy * (vy - ky))%D in
   gt (a + b) (need + lit c_star_hull * (fabs a + fabs b) + lit c_tiny).
-(** What certify_hull says where no rectangle is fat: is v so much farther than all others but the ghost? *)
+(** The answer of certify_hull where no rectangle is fat: v is farther by enough than all others but the ghost. *)
 Definition star_hull (v : double * double) (star : list (double * double)) (ghost : nat) (reach : double) : bool :=
   let next := nth ((ghost + 1) mod length star) star nowhere in
   let before := nth ((ghost + length star - 1) mod length star) star nowhere in
@@ -191,8 +191,8 @@ Variable reach_most : 2 * (L + 3 * delta) <= val reach * (1 + 3 * u).
 Lemma from_double k z : (k < N)%nat -> ~ fat k -> inside z (B k) -> dist (P k) z <= L.
 Proof. intros K F Z. apply Rle_trans with (2 := radii k K F). now apply le_dl. Qed.
 
-(** The vertices in a disc about c that holds i and j are connected in the skeleton: if no neighbour of i or of j is in it,
-    nobody else is. *)
+(** The vertices in a disc about c that holds i and j are connected in the skeleton: if no neighbour of i or of j is in
+    it, no other vertex is. *)
 Definition spreads (i j : nat) (c : point) (neighbour : nat -> Prop) : Prop :=
   forall r, dist c (p i) <= r -> dist c (p j) <= r ->
     (forall k, (k < N)%nat -> neighbour k -> k <> i -> k <> j -> r < dist c (p k)) ->

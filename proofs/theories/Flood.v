@@ -5,9 +5,8 @@ From Coq Require Import Reals Lra Lia Psatz Classical List.
 From Dyadel Require Import Plane Finite Distance Orientation Disc Path Fan TiedRim Inserted.
 Open Scope R_scope.
 
-(* The cells: real triangles, and beyond hull edges what is in the cone from an inner point o. Positive on the inner
-  side
-   of the edge ab. *)
+(* The cells: real triangles, and beyond hull edges the points in the cone from an inner point o. Positive on the inner
+   side of the edge ab. *)
 Definition side (N : nat) (p : nat -> point) (o : point) (a b : nat) (x : point) : R :=
   if Nat.eqb a N then - orient o (p b) x else if Nat.eqb b N then orient o (p a) x else orient (p a) (p b) x.
 
@@ -339,7 +338,7 @@ Variable S : point -> Prop.
 Variable convex : forall u v s, 0 <= s <= 1 -> S u -> S v -> S (mix s u v).
 Definition met (a b c : nat) : Prop := exists y, S y /\ 0 < test_at a b c y.
 
-(* Nobody is in a circle, or beyond a hull edge. *)
+(* No site is in a circle, or beyond a hull edge. *)
 Lemma not_met_by_site a b c k : T a b c -> (k < N)%nat -> test_at a b c (p k) <= 0.
 Proof. intros F K. destruct (proj1 skeleton _ _ _ F) as (_ & _ & _ & _ & H). exact (H k K). Qed.
 

@@ -55,7 +55,7 @@ Variable S : point -> Prop.
 Variable convex : forall u v s, 0 <= s <= 1 -> S u -> S v -> S (mix s u v).
 Variable opened : forall u, S u -> exists e, 0 < e /\ forall v, dist u v < e -> S v.
 
-(* What is strictly within a triangle is strictly on the inner side of all hull edges. *)
+(* A point strictly within a triangle is strictly on the inner side of all hull edges. *)
 Lemma inner_point i j l o : T i j l -> (i < N)%nat -> (j < N)%nat -> (l < N)%nat -> 0 < orient (p i) (p j) o ->
   0 < orient (p j) (p l) o -> 0 < orient (p l) (p i) o -> forall a b, T a b N -> orient (p a) (p b) o < 0.
 Proof.
@@ -247,7 +247,7 @@ Proof.
 Qed.
 End Flood.
 
-(* What is nearer than E to a convex set is such a set. *)
+(* The points nearer than E to a convex set are a convex set. *)
 Definition close_to (K : point -> Prop) (E : R) (y : point) : Prop := exists w, K w /\ dist y w < E.
 
 Theorem close_convex (K : point -> Prop) E : (forall u v s, 0 <= s <= 1 -> K u -> K v -> K (mix s u v)) ->
@@ -275,7 +275,7 @@ Proof.
   pose proof (dist_triangle v u w). rewrite (dist_sym v u) in *. lra.
 Qed.
 
-(* Within E of the closed disc, or of the closed half-plane: met by what is nearer than a little more. *)
+(* Within E of the closed disc, or of the closed half-plane: met by the points nearer than a little more. *)
 Theorem met_by_distance K E F o r : 0 < r -> 0 <= E < F -> (exists w, K w /\ dist o w <= r + E) ->
   exists y, close_to K F y /\ dist o y < r.
 Proof.

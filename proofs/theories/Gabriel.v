@@ -63,7 +63,7 @@ Proof.
       destruct (Rle_lt_dec (w k) 0) as [Z | Z]; nra.
 Qed.
 
-(* Who is not in the graph has one in the open disc that makes a possible pair with i. *)
+(* A pair that is not in the graph has a site in its open disc that makes a possible pair with i. *)
 Theorem gabriel_by_possible N B p i j : (i < N)%nat -> (j < N)%nat -> choice N B p ->
   (gabriel N p i j <-> forall k, (k < N)%nat -> k <> i -> k <> j -> possible N B i k -> 0 <= angle (p k) (p i) (p j)).
 Proof.
@@ -81,7 +81,7 @@ Proof.
     try (intros; lra); [now exists k |]. pose proof (H m M Mi Mj Po). lra.
 Qed.
 
-(* Surely an edge: the product is positive over all three rectangles, for each possible pair of i by itself. *)
+(* Surely an edge: the product is positive over all three rectangles, for each possible pair of i separately. *)
 Theorem surely_gabriel N B i j : (i < N)%nat -> (j < N)%nat -> i <> j ->
   ((forall p, choice N B p -> strictly_gabriel N p i j) <->
    (forall k, (k < N)%nat -> k <> i -> k <> j -> possible N B i k ->
@@ -125,7 +125,7 @@ Proof.
   replace ((1 - / 2) * c + / 2 * d) with ((c + d) / 2) by field. lra.
 Qed.
 
-(* Possibly: m is the middle of points of both, and nobody need be in the least disc about it. *)
+(* Possibly: m is the middle of points of both, and no site need be in the least disc about it. *)
 Definition stretch (a b c d t : R) : R := Rmax (Rabs (t - clamp a b t)) (Rabs (t - clamp c d t)).
 Definition least_radius2 (X Y : rect) (m : point) : R :=
   stretch (xlo X) (xhi X) (xlo Y) (xhi Y) (fst m) * stretch (xlo X) (xhi X) (xlo Y) (xhi Y) (fst m) +

@@ -49,7 +49,7 @@ Qed.
 Theorem meeting_never_beyond u X Y z : inside z X -> inside z Y -> ~ beyond u X Y.
 Proof. intros A C. rewrite beyond_points. intros H. specialize (H z z A C). lra. Qed.
 
-(* A possible vertex: a direction that nobody forbids. *)
+(* A possible vertex: a direction that no site forbids. *)
 Theorem possible_vertex N B v : (v < N)%nat ->
   ((exists u, u <> (0, 0) /\ forall k, (k < N)%nat -> ~ beyond u (B v) (B k)) <->
    (exists p u m, choice N B p /\ u <> (0, 0) /\ dot u (p v) = m /\ forall k, (k < N)%nat -> dot u (p k) <= m)).
@@ -76,7 +76,7 @@ Definition cross (a b : point) : R := fst a * snd b - snd a * fst b.
 Definition passes (u v : point) : Prop := 0 < cross u (1, 0) /\ 0 <= cross (1, 0) v.
 Definition in_step (u v w : point) : Prop := 0 <= cross u w /\ 0 < cross w v.
 
-(* Who is in the step from u to v is forbidden by the one who forbids u and has v as the end of its cone. *)
+(* A direction in the step from u to v is forbidden by the site that forbids u and has v as the end of its cone. *)
 Theorem step_forbidden u v w X Y : 0 < cross u v -> beyond u X Y ->
   (forall x y, inside x X -> inside y Y -> dot v x <= dot v y) -> in_step u v w -> beyond w X Y.
 Proof.

@@ -33,7 +33,7 @@ Proof.
   assert (0 <= dot a a) by (unfold dot; nra). rewrite E in I. nra.
 Qed.
 
-(* What is left when both ends of the intersection are found: start and end as the code takes them. *)
+(* The arc that remains when both ends of the intersection are found: start and end as the code takes them. *)
 Theorem narrow_exact lo hi from to (from_in to_in : bool) : is_arc lo hi -> is_arc from to ->
   (if from_in then in_arc lo hi from else start_in lo hi from to) ->
   (if to_in then in_arc lo hi to else end_in lo hi from to) ->
@@ -148,7 +148,7 @@ Inductive loop : list nat -> point -> point -> Prop :=
 Lemma arc_of k : ~ no_arc (B k) (B v) -> is_arc (from k) (to k) /\ forall u, in_arc (from k) (to k) u <-> good k u.
 Proof. intros H. apply arc_is_beyond. apply NNPP. intros X. apply H. now apply no_arc_exact. Qed.
 
-(* The arc holds just the directions good for all found so far; nobody is found twice. *)
+(* The arc holds just the directions good for all found so far; no site is found twice. *)
 Theorem loop_holds l lo hi : loop l lo hi ->
   is_arc lo hi /\ (forall u, in_arc lo hi u <-> forall k, In k l -> good k u) /\ NoDup l /\ (length l <= N)%nat.
 Proof.
@@ -172,7 +172,7 @@ Qed.
 
 Definition sure_direction (u : point) : Prop := forall k, (k < N)%nat -> k <> v -> good k u.
 
-(* Where it ends without a direction there is none: somebody has no arc, or an end is not found. *)
+(* Where it ends without a direction there is none: a site has no arc, or an end is not found. *)
 Theorem loop_fails k : (k < N)%nat -> k <> v ->
   (no_arc (B k) (B v) -> ~ exists u, sure_direction u) /\
   (forall l lo hi, loop l lo hi ->

@@ -321,7 +321,7 @@ Proof.
   - pose proof (P x y X Y) as Q. rewrite !D in Q. nra.
 Qed.
 
-(* What is across v is a multiple of one vector. *)
+(* Each vector across v is a multiple of one vector. *)
 Lemma across_multiple v g : v <> (0, 0) -> dot g v = 0 -> exists k, g = (k * - snd v, k * fst v).
 Proof.
   intros V G. assert (P : 0 < dot v v).

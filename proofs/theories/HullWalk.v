@@ -166,7 +166,7 @@ Proof.
     + intros H. split; apply H; assumption.
 Qed.
 
-(* The code's test that there is no arc: K - V holds 0, or else there is a direction. *)
+(* The code tests that no arc exists: K - V holds 0, or else a direction exists. *)
 Definition no_arc (V K : rect) : Prop := xlo K - xhi V <= 0 <= xhi K - xlo V /\ ylo K - yhi V <= 0 <= yhi K - ylo V.
 
 Theorem no_arc_exact V K : no_arc V K <-> ~ exists u, beyond u V K.
@@ -225,7 +225,8 @@ Proof.
   destruct (not_upper a Za U); destruct (not_upper b Zb ltac:(tauto)); destruct (not_upper c Zc ltac:(tauto)); repeat split; lra.
 Qed.
 
-(* A step from u to v, less than a half turn: if it does not pass (1,0), v comes later, and who is between is in the step; *)
+(* A step from u to v, less than a half turn: if it does not pass (1,0), v comes later, and any direction between
+   is in the step; *)
 Lemma step_is_later u v : u <> (0, 0) -> v <> (0, 0) -> 0 < cross u v -> ~ passes u v -> before u v.
 Proof.
   intros Zu Zv C N. destruct (upper_dec u) as [U | U]; destruct (upper_dec v) as [V | V].
@@ -289,7 +290,7 @@ Proof.
     pose proof (Rmult_lt_0_compat _ _ Q Wd). pose proof (Rmult_le_pos _ _ P Fd). apply Rnot_le_lt. intros L. nra.
 Qed.
 
-(* The walk: from (1,0), while somebody forbids the place, to the end of his arc, until the start is passed. *)
+(* The walk: from (1,0), while a site forbids the place, to the end of its arc, until the start is passed. *)
 Inductive walk : list nat -> point -> Prop :=
 | walk_start : walk [] (1, 0)
 | walk_step l u k : walk l u -> (k < N)%nat -> forbids k u -> ~ passes u (end_of k) -> walk (k :: l) (end_of k).
@@ -332,7 +333,7 @@ Proof.
   intros k M. apply in_seq. specialize (I k M). lia.
 Qed.
 
-(* Where it stops: a place that nobody forbids, or everything is forbidden. *)
+(* Where it stops: a place that no site forbids, or everything is forbidden. *)
 Theorem walk_decides l u : (v < N)%nat -> walk l u ->
   let hull := exists p w m, choice N B p /\ w <> (0, 0) /\ dot w (p v) = m /\ forall k, (k < N)%nat -> dot w (p k) <= m in
   ((forall k, (k < N)%nat -> ~ forbids k u) -> hull) /\

@@ -147,7 +147,7 @@ Proof. pose proof v_real. destruct new. intros [A | A] ->; [contradiction | lia]
 Lemma site a : S a \/ a = N -> a <> N -> S a /\ (a < N)%nat.
 Proof. intros [A | A] D; [| contradiction]. split; [exact A |]. destruct before as [_ [_ [_ [_ H]]]]. now apply H. Qed.
 
-(* Who is taken has v strictly inside, or beyond. *)
+(* A triangle that is taken has v strictly inside, or beyond. *)
 Lemma taken_inside a b c : taken a b c -> T a b c /\ 0 < test N p a b c v.
 Proof.
   intros F. destruct step as [H [_ [K _]]]. destruct (H _ _ _ F) as [G [X | [X | [A [B [C [X [Y Z]]]]]]]].
@@ -164,7 +164,7 @@ Proof.
     apply (in_triangle o (p a) (p b) (p c) (p v)); auto; apply not_eq_sym; auto.
 Qed.
 
-(* Who is beyond the rim was tested, and is strictly not to be taken. *)
+(* A triangle beyond the rim was tested, and is strictly not to be taken. *)
 Lemma rim_tested a b d : rim_edge T taken a b -> T b a d -> ~ taken b a d /\ test N p b a d v < 0.
 Proof.
   intros [[c C] [d' [D' Nd]]] D. destruct before as [_ [U _]]. rewrite (U _ _ _ _ D' D) in *. split; [exact Nd |].
@@ -338,7 +338,7 @@ End Certain.
 
 (* ---- all insertions ---- *)
 
-(* The first triangle, its ghosts round it; then insertions. Each mesh is a Delaunay triangulation of what is in it. *)
+(* The first triangle, its ghosts round it; then insertions. Each mesh is a Delaunay triangulation of its sites. *)
 Inductive built (N : nat) (p : nat -> point) : (nat -> Prop) -> mesh -> Prop :=
 | built_first a b c (T : mesh) : (a < N)%nat -> (b < N)%nat -> (c < N)%nat -> 0 < orient (p a) (p b) (p c) ->
     (forall x y z, T x y z -> In (x, y, z) ((a, b, c) :: (b, c, a) :: (c, a, b) ::

@@ -1,16 +1,15 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* Neither the number of programs that answer, nor when requests are sent and answers come, changes what is answered
-   [ORA-2]. *)
+(* Neither the number of programs that answer, nor the times of requests and answers changes the answers [ORA-2]. *)
 From Coq Require Import ZArith Arith List Lia.
 Import ListNotations.
 
 Section Jobs.
-(* What a program says of a point, asked for so many bits, after having been asked for these bits of it before. *)
+(* The answer of a program on a point: given the bits requested now, and the bits requested of it before. *)
 Variables (answer : Type) (reply : nat -> Z -> list Z -> answer).
 Definition request : Type := (nat * Z)%type.
 Definition told : Type := list (request * answer).
 
-(* What the engine asks for next, given all that it was told. *)
+(* The next request of the engine, given all answers that it has. *)
 Variable next : told -> option request.
 
 Definition former (i : nat) (l : list request) : list Z := map snd (filter (fun r => fst r =? i) l).
@@ -22,8 +21,8 @@ Fixpoint printed (before l : list request) : list answer :=
   | r :: rest => reply (fst r) (snd r) (former (fst r) before) :: printed (before ++ [r]) rest
   end.
 
-(* Requests go to the program of their point. A state: what the engine was told, what was sent to each program, and how
-   many answers of each were taken. Requests are sent ahead at any time; an answer is taken when it is there and its
+(* Requests go to the program of their point. A state: the answers of the engine, the requests sent to each program, and
+   how many answers of each were taken. Requests are sent ahead at any time; an answer is taken when it has come and its
    request is the one that the engine makes. *)
 Variable job : nat -> nat.
 Inductive runs : told -> (nat -> list request) -> (nat -> nat) -> Prop :=
@@ -72,7 +71,7 @@ Proof.
   rewrite IH. destruct (Nat.eqb_spec (fst r) i) as [Q | D]; [elim E; now rewrite Q | reflexivity].
 Qed.
 
-(* What one program asked one request at a time would have said. *)
+(* The answers of one program that gets one request at a time. *)
 Inductive alone : told -> Prop :=
 | alone_begin : alone []
 | alone_next h r : alone h -> next h = Some r -> alone (h ++ [(r, reply (fst r) (snd r) (former (fst r) (map fst h)))]).
@@ -104,7 +103,7 @@ Proof.
   now apply (runs_alone _ _ _ job h sent taken).
 Qed.
 
-(* And both end together: a run to the end has taken as many as any other one. *)
+(* And both end together: every run to the end has taken the same answers. *)
 Theorem ends_same answer reply next job job' h sent taken h' sent' taken' :
   runs answer reply next job h sent taken -> runs answer reply next job' h' sent' taken' ->
   next h = None -> next h' = None -> h = h'.

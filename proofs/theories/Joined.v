@@ -8,8 +8,8 @@ Open Scope R_scope.
 
 (* ---- what join.c does ---- *)
 
-(* q is the left candidate at the base a b: above it, nobody of the left part P strictly inside of the circle a b q, and
-   nobody of those beyond the edge a q on it. *)
+(* q is the left candidate at the base a b: above it, no site of the left part P strictly inside of the circle a b q,
+   and no site beyond the edge a q on it. *)
 Definition left_candidate (p : nat -> point) (P : nat -> Prop) (a b q : nat) : Prop :=
   P q /\ 0 < orient (p a) (p b) (p q) /\ (forall z, P z -> incircle (p a) (p b) (p q) (p z) <= 0) /\
   forall z, P z -> orient (p a) (p q) (p z) < 0 -> incircle (p a) (p b) (p q) (p z) < 0.
@@ -106,7 +106,7 @@ Proof.
   rewrite X, Y, Z in E. apply (Rmult_eq_reg_l (dist2 a b)); lra.
 Qed.
 
-(* From v the directions to c and d are the same: what is right of the one is left of the other. *)
+(* From v the directions to c and d are the same: a point right of the one is left of the other. *)
 Lemma same_way v c d z : 0 < (fst c - fst v) * (fst d - fst v) -> orient c v d = 0 ->
   orient c v z <= 0 -> orient v d z <= 0 -> orient v d z = 0.
 Proof.

@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* The leaves of identities [IDN-1], kind by kind as in src/stream/algebra/ring.h: what each is, its relation, and that
-   the relation holds. A polynomial in leaves that is a combination of their relations is 0. *)
+(* The leaves of identities [IDN-1], kind by kind as in src/stream/algebra/ring.h: the meaning of each, its relation,
+   and that the relation holds. A polynomial in leaves that is a combination of their relations is 0. *)
 From Coq Require Import Reals Lra Lia ZArith NArith List Ring_polynom Bool.
 From Dyadel Require Import Identity.
 From Dyadel Require Export CheckerCycle.
@@ -132,7 +132,7 @@ Proof.
   replace ((- x) ^ 2) with (x ^ 2) by ring. ring.
 Qed.
 
-(* There is one root: what has the power, and is not negative where that is asked, is it. *)
+(* There is one root: the number that has the power, and is not negative where that is required. *)
 Theorem root_unique k a x y : (0 < k)%nat -> root k a x -> root k a y -> x = y.
 Proof.
   intros K [X Px] [Y Py].

@@ -1,8 +1,8 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
 (* Only the faces at i and j can spoil a witness of ij [LOC-3]. Round i the rim of its faces is a closed polygon of
-   legal edges, which winds around i and not around sites that are no corner of these faces, for every choice; so the way
-   from i to such a site crosses a legal edge, and so does that from j. A disc that holds the three and no other corner
-   would then have two legal edges cross. *)
+   legal edges, which winds around i and not around sites that are not a corner of these faces, for every choice; so the
+   way from i to such a site crosses a legal edge, and so does that from j. A disc that holds the three and no other
+   corner would then have two legal edges cross. *)
 From Coq Require Import Reals Lra Lia Psatz Classical List ZArith Permutation.
 From Dyadel Require Import Plane Distance Cells Legal Orientation Nerve Disc Crossing Path Fan TiedRim Winding.
 Open Scope R_scope.
@@ -109,7 +109,7 @@ Qed.
 
 (* ---- the rim ---- *)
 
-(* The ghost stands for places far out: corners from N on, of which some go along with a site. *)
+(* The ghost represents places far out: corners from N on, of which some go along with a site. *)
 Record far_out : Type := Far { anchor : nat -> nat; scale : nat -> R; offset : nat -> point }.
 
 Definition place (N : nat) (f : far_out) (p : nat -> point) (v : nat) : point :=
@@ -161,7 +161,7 @@ Proof.
     destruct S as [S | [S | [S | []]]]; injection S; intros; subst; auto.
 Qed.
 
-(* Far out nobody passes. *)
+(* Far out no site passes. *)
 Lemma not_far p x y t a b u : (x < N)%nat -> (y < N)%nat -> choice N B p -> x <> a -> x <> b -> y <> a -> y <> b ->
   0 <= t <= 1 -> (forall p x, choice N B p -> (x < N)%nat -> x <> a -> x <> b ->
     dot u (p x) < dot u (place N f p a) /\ dot u (p x) < dot u (place N f p b)) ->
@@ -246,7 +246,7 @@ Proof.
   - intros a b F. destruct round as [_ [_ [_ [Le _]]]]. destruct (Le a b F) as [X [Y _]]. auto.
 Qed.
 
-(* From i to a site that is no corner of its faces: across a legal edge of the rim. *)
+(* From i to a site that is not a corner of its faces: across a legal edge of the rim. *)
 Lemma way_out p k : (k < N)%nat -> choice N B p -> ~ face_corner i L Rest k ->
   exists t a b, 0 <= t <= 1 /\ In (a, b) E /\ (a <> i /\ b <> i) /\ ((a < N)%nat /\ (b < N)%nat /\ a <> b /\
     legal N B a b) /\

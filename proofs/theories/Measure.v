@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* Areas of sets in the plane: upper bounds on the Lebesgue outer measure, and lower bounds from inside.
-   Both are said by means of rectangles; MeasureRect.v shows that a rectangle measures what it should. *)
+(* Areas of sets in the plane: upper bounds on the Lebesgue outer measure, and lower bounds from inside. Both are said
+   by means of rectangles; MeasureRect.v shows that the measure of a rectangle is its area. *)
 From Coq Require Import Reals Lra Lia List.
 From Dyadel Require Import Plane Distance.
 Import ListNotations.
@@ -91,7 +91,7 @@ Qed.
 Lemma strictly_inside z Q : strictly z Q -> inside z Q.
 Proof. unfold strictly, inside. lra. Qed.
 
-(* What has no interior has no area. *)
+(* A rectangle without interior has area 0. *)
 Lemma no_interior Q : (forall z, ~ strictly z Q) -> area Q = 0.
 Proof.
   intros H. pose proof (x_ordered Q). pose proof (y_ordered Q). unfold area.

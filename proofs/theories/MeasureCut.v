@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* Cutting rectangles out of rectangles: what is left of W outside of a set with inner content m has at most the area
-   of W less m. *)
+(* Cutting rectangles out of rectangles: the rest of W outside of a set with inner content m has at most
+   the area of W less m. *)
 From Coq Require Import Reals Lra Lia List.
 From Dyadel Require Import Plane Distance Measure.
 Import ListNotations.

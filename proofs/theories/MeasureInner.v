@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* Inner content is at most outer measure, so both say what they should. *)
+(* Inner content is at most outer measure, so both have the meaning intended. *)
 From Coq Require Import Reals Lra Lia List.
 From Dyadel Require Import Plane Distance Measure MeasureCut MeasureRect.
 Import ListNotations.

@@ -32,7 +32,7 @@ Proof.
   unfold Rmax, Rmin, Rabs. destruct (Rle_dec _ _), (Rcase_abs _); lra.
 Qed.
 
-(* Thin rectangles, by halving: what they miss falls by half each time. *)
+(* Thin rectangles, by halving: the part that they miss falls by half each time. *)
 Lemma slab_inner n : forall s t, s <= t -> f s <= g s -> f t <= g t ->
   exists L, Forall (within (slab s t)) L /\ ForallOrdPairs apart L /\
     (t - s) * (g s - f s + (g t - f t)) / 2 - (Rabs q + Rabs w) * ((t - s) * (t - s)) / 2 ^ n <= areas L.

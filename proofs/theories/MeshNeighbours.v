@@ -1,7 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* In a Delaunay triangulation, ties allowed, a nearest site is joined by an edge: who is as near as all neighbours in
-  the
-   mesh is as near as all others. *)
+(* In a Delaunay triangulation, ties allowed, a nearest site is joined by an edge: a site as near as all its neighbours
+   in the mesh is as near as all others. *)
 From Coq Require Import Reals Lra Lia Psatz Classical List.
 From Dyadel Require Import Plane Finite Distance Cells Orientation Disc TiedRim Triangulation Inserted.
 Open Scope R_scope.
@@ -27,7 +26,7 @@ Proof. intros F. now destruct (proj1 skeleton _ _ _ F). Qed.
 Lemma corner_below a b c : T a b c -> (a < N)%nat \/ a = N.
 Proof. intros F. now destruct (proj1 skeleton _ _ _ F) as (_ & _ & X & _). Qed.
 
-(* A hull edge: nobody is beyond it. *)
+(* A hull edge: no site is beyond it. *)
 Lemma nobody_beyond a b z : T a b N -> (a < N)%nat -> (b < N)%nat -> (z < N)%nat -> orient (p a) (p b) (p z) <= 0.
 Proof.
   intros F A C Z. destruct (proj1 skeleton _ _ _ F) as (_ & _ & _ & _ & H). specialize (H z Z). unfold test in H.
@@ -150,7 +149,7 @@ Proof.
   pose proof (inside_circle o (p a) (p x) (p y) (p k) O Ex Ey (distinct k a K A Dk) Ox Oy ltac:(lra) ltac:(lra)). lra.
 Qed.
 
-(* What is asked of c along the way from a: dist2 c z - dist2 c a, in coordinates from a. *)
+(* The requirement on c along the way from a: dist2 c z - dist2 c a, in coordinates from a. *)
 Lemma nearer_in_cone o a b c z w : 0 < orient a b c -> about o a b = 0 -> about o a c = 0 -> 0 <= about o a z ->
   0 <= orient a b z -> 0 <= orient a z c -> dist2 w a <= dist2 w b -> dist2 w a <= dist2 w c -> dist2 w a <= dist2 w z.
 Proof.
@@ -166,7 +165,7 @@ Qed.
 
 Variable everybody : forall a, (a < N)%nat -> exists b c, T a b c /\ (b < N)%nat /\ (c < N)%nat.
 
-(* If somebody is nearer to w than a, a neighbour of a is. *)
+(* If a site is nearer to w than a, a neighbour of a is. *)
 Theorem greedy a k w : (a < N)%nat -> (k < N)%nat -> dist w (p k) < dist w (p a) ->
   exists s, next_to a s /\ dist w (p s) < dist w (p a).
 Proof.
@@ -184,7 +183,7 @@ Proof.
     now exists d.
 Qed.
 
-(* If nobody next to i or j is in a disc that holds the two, nobody else is: what is in a disc is connected. *)
+(* If no neighbour of i or j is in a disc that holds the two, no other site is: the sites in a disc are connected. *)
 Theorem disc_connected i j c r : (i < N)%nat -> (j < N)%nat -> dist c (p i) <= r -> dist c (p j) <= r ->
   (forall s, next_to i s \/ next_to j s -> s <> i -> s <> j -> r < dist c (p s)) ->
   forall k, (k < N)%nat -> k <> i -> k <> j -> r < dist c (p k).
@@ -206,7 +205,7 @@ Proof.
     - specialize (Off s (or_introl S) Si Sj). lra. }
   destruct Near as (a & Ha & Least). assert (A : (a < N)%nat) by (destruct Ha as [-> | ->]; assumption).
   set (d := dist c (p a)) in *. assert (D0 : 0 <= d) by apply dist_nonneg.
-  (* a little nearer to a, nobody else ties with a *)
+  (* a little nearer to a, no other site ties with a *)
   destruct (small_finite (fun w e => r < dist c (p w) -> r + 2 * e < dist c (p w)) N) as (e & E0 & Room).
   { intros w _. destruct (Rlt_dec r (dist c (p w))) as [L | L]; [| exists 1; split; [lra |]; intros; lra].
     exists ((dist c (p w) - r) / 3). split; [lra |]. intros; lra. }

@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* What can change when the sites of C were narrowed and nobody else [LOC-4]: B before, B' now. *)
+(* Pairs that can change when the sites of C were narrowed and no other site [LOC-4]: B before, B' now. *)
 From Coq Require Import Reals Lra Lia Psatz Classical.
 From Dyadel Require Import Plane Finite Distance Cells Neighbours Nerve Legal Orientation Fan.
 Open Scope R_scope.
@@ -199,7 +199,7 @@ Proof.
     intros v V [-> | [-> | ->]] m M; pose proof (Low m M); lra.
 Qed.
 
-(* When nobody narrowed is possibly an edge with both: a pair of points that is legal now was legal before, *)
+(* When no narrowed site is possibly an edge with both: a pair of points that is legal now was legal before, *)
 Theorem points_were_legal i j p q : (i < N)%nat -> (j < N)%nat -> ~ C i -> ~ C j ->
   (forall z, inside z (B i) -> z = p) -> (forall z, inside z (B j) -> z = q) ->
   (forall k, (k < N)%nat -> C k -> possible N B i k -> ~ possible N B j k) -> legal N B' i j -> legal N B i j.

@@ -12,7 +12,7 @@ Definition only_nearest (N : nat) (p : nat -> point) (i j : nat) : Prop :=
 Definition may_be_nearest (N : nat) (B : sites) (i j : nat) : Prop := exists p, choice N B p /\ is_nearest N p i j.
 Definition surely_is_nearest (N : nat) (B : sites) (i j : nat) : Prop := forall p, choice N B p -> only_nearest N p i j.
 
-(* A disc with nobody strictly inside and two on its circle, of any radius, makes a possible pair. *)
+(* A disc with no site strictly inside and two on its circle, of any radius, makes a possible pair. *)
 Lemma disc_possible N B p i j c r : (i < N)%nat -> (j < N)%nat -> choice N B p -> empty_disc N p (pair i j) c r ->
   possible N B i j.
 Proof.
@@ -42,7 +42,7 @@ Proof.
   intros k K Di. destruct (Nat.eq_dec k j) as [-> | Dj]; [lra |]. left. now apply (H _ (choice_nearest N B (0, 0))).
 Qed.
 
-(* From a place x in R_i: j may be nearest to it iff nobody is always nearer; only possible pairs of i matter. *)
+(* From a place x in R_i: j may be nearest to it iff no site is always nearer; only possible pairs of i matter. *)
 Theorem may_be_nearest_exact N B i j : (i < N)%nat -> (j < N)%nat -> i <> j ->
   (may_be_nearest N B i j <-> exists x, inside x (B i) /\
     forall k, (k < N)%nat -> k <> i -> k <> j -> possible N B i k -> ds x (B j) <= dl x (B k)).
@@ -116,7 +116,7 @@ Proof.
   - apply (corners_nearer (B i)); [| exact X]. intros s S. now apply H.
 Qed.
 
-(* Who is farther from all of R_i than the least bound of dl there counts in neither. *)
+(* A site farther from all of R_i than the least bound of dl there counts in neither. *)
 Definition out_of_reach (N : nat) (B : sites) (i k : nat) : Prop := exists m b, (m < N)%nat /\ m <> i /\ possible N B i m /\
   (forall z, inside z (B i) -> dl z (B m) <= b /\ b < ds z (B k)).
 

@@ -19,7 +19,7 @@ Proof. apply mix_0. Qed.
 Lemma way_ds t : 0 <= t <= 1 -> ds (way t) (B i) = (1 - t) * ds c (B i).
 Proof. apply ds_towards. Qed.
 
-(* Whoever blocks at some place of the way has blocked all the way to it. *)
+(* Each site that blocks at some place of the way has blocked all the way to it. *)
 Lemma blocked_before k s t : 0 <= s <= t -> t <= 1 ->
   dl (way t) (B k) < ds (way t) (B i) -> dl (way s) (B k) < ds (way s) (B i).
 Proof.

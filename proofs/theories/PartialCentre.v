@@ -32,7 +32,7 @@ Qed.
 Lemma step_dist o d t : 0 <= t -> dist o (step o d t) = t * dist (0, 0) d.
 Proof. apply dist_scaled. unfold dist2, step. cbn. ring. Qed.
 
-(* What is strict stays so near by. *)
+(* A strict inequality holds near by, too. *)
 Lemma strict_stays o d a b : ds o (B a) < dl o (B b) -> small (fun t => ds (step o d t) (B a) <= dl (step o d t) (B b)).
 Proof.
   intros L. pose proof (dist_nonneg (0, 0) d) as D. set (e := (dl o (B b) - ds o (B a)) / (2 * (dist (0, 0) d + 1))).
@@ -81,8 +81,8 @@ Proof.
   - exists e. split; [exact E |]. intros a b A Hb. apply F; auto. lra.
 Qed.
 
-(* A centre with nobody ahead of it: the circle touches all three, from outside or inside, and one of them from outside,
-   another one from inside. *)
+(* A centre with no other centre ahead of it: the circle touches all three, from outside or inside, and one of them from
+   outside, another one from inside. *)
 Theorem extreme_is_critical o : meets_all o -> (forall c, meets_all c -> ~ ahead (fst c - fst o, snd c - snd o)) ->
   exists r a b, (a < 3)%nat /\ (b < 3)%nat /\ a <> b /\ ds o (B a) = r /\ dl o (B b) = r /\
     forall k, (k < 3)%nat -> ds o (B k) = r \/ dl o (B k) = r.

@@ -88,7 +88,7 @@ Theorem direction_shows N B i j u : u <> (0, 0) ->
     dot u (lowest u (B k)) <= dot u (highest u (B j))) -> possible N B i j.
 Proof. intros U H. right. exists u. split; [exact U |]. intros m k _ [-> | ->] K; now apply H. Qed.
 
-(* Rivals: who has the least dl somewhere within d of c has at c at most the least dl plus 2 d. *)
+(* Rivals: a site with the least dl somewhere within d of c has at c at most the least dl plus 2 d. *)
 Theorem rival_near N B c x d m k : (k < N)%nat -> dist c x <= d ->
   (forall l, (l < N)%nat -> dl x (B m) <= dl x (B l)) -> dl c (B m) <= dl c (B k) + 2 * d.
 Proof.

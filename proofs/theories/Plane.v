@@ -129,7 +129,7 @@ Proof.
   now rewrite Rabs_pos_eq by lra.
 Qed.
 
-(* What is nearer to one of two points is a half-plane, so it is convex. *)
+(* The set of points nearer to one of two points is a half-plane, so it is convex. *)
 Lemma nearer_affine t a b x y :
   dist2 (mix t a b) y - dist2 (mix t a b) x =
   (1 - t) * (dist2 a y - dist2 a x) + t * (dist2 b y - dist2 b x).

@@ -8,7 +8,7 @@ Open Scope R_scope.
 Definition listed (N : nat) (B : sites) (q : rect) (i : nat) : Prop := exists c, inside c q /\ pos N B i c.
 Definition surely_nearest (N : nat) (B : sites) (q : rect) (i : nat) : Prop := forall c, inside c q -> int N B i c.
 
-(* Who is listed is nearest for some choice and some place, and who is surely nearest is so for all of them. *)
+(* A listed site is nearest for some choice and some place; a certainly nearest one is so for all of them. *)
 Theorem listed_exact N B q i : (i < N)%nat ->
   (listed N B q i <-> exists c p, inside c q /\ choice N B p /\ cell N p i c).
 Proof.
@@ -40,7 +40,7 @@ Proof.
     intros k K. pose proof (L k K Logic.I). lra.
 Qed.
 
-(* Candidates: a set that holds everybody listed decides. *)
+(* Candidates: a set that holds all listed sites decides. *)
 Theorem candidates_decide N B q S i c : (i < N)%nat -> inside c q -> (forall k, (k < N)%nat -> listed N B q k -> S k) ->
   (pos N B i c <-> forall k, (k < N)%nat -> S k -> ds c (B i) <= dl c (B k)).
 Proof.
@@ -51,7 +51,7 @@ Proof.
   pose proof (P m M (H m M X)). lra.
 Qed.
 
-(* Whoever is listed is within the least of the bounds for all of q. *)
+(* Each listed site is within the least of the bounds for all of q. *)
 Theorem candidate_near N B q i m b : (m < N)%nat -> (forall c, inside c q -> dl c (B m) <= b) -> listed N B q i ->
   exists c, inside c q /\ ds c (B i) <= b.
 Proof. intros M L [c [C P]]. exists c. split; [exact C |]. pose proof (P m M). pose proof (L c C). lra. Qed.
@@ -64,12 +64,12 @@ Proof. intros I P X C. apply listed_exact; [exact I |]. now exists x, p. Qed.
 Theorem list_shrinks N B' B q' q i : (i < N)%nat -> refined N B' B -> refines q' q -> listed N B' q' i -> listed N B q i.
 Proof. intros I F G [c [C P]]. exists c. split; [now apply G | now apply (pos_monotone N B' B)]. Qed.
 
-(* nor do they take back who is surely nearest; *)
+(* nor do they take back a certainly nearest site; *)
 Theorem sure_stays N B' B q' q i : (i < N)%nat -> refined N B' B -> refines q' q ->
   surely_nearest N B q i -> surely_nearest N B' q' i.
 Proof. intros I F G H c C. apply (int_monotone N B' B); [exact I | exact F |]. now apply H, G. Qed.
 
-(* and who is not listed need not be narrowed: it stays off, whichever of the others are. *)
+(* and a site that is not listed need not be narrowed: it stays off, whichever of the others are. *)
 Theorem off_stays_off N B' B q' q i : (i < N)%nat -> (forall k, (k < N)%nat -> B' k = B k \/ refines (B' k) (B k)) ->
   refines q' q -> ~ listed N B q i -> ~ listed N B' q' i.
 Proof.

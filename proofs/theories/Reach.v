@@ -80,7 +80,7 @@ Proof.
   destruct (vertical l h z Xl Xh (conj Yl Yh)) as [t [T ->]]. now apply hull_mix.
 Qed.
 
-(* ---- what holds from some number on ---- *)
+(* ---- properties that hold from some number on ---- *)
 
 Lemma late_list {A} (P : A -> R -> Prop) l : (forall e, In e l -> exists T, forall t, T < t -> P e t) ->
   exists T, forall t, T < t -> forall e, In e l -> P e t.
@@ -224,7 +224,7 @@ Proof.
     intros z W; apply Off; [now left | now right].
 Qed.
 
-(* What is as near to a centre of the possible cell as some point s: so it is to a point of the chain, or as far into a
+(* A place as near to a centre of the possible cell as some point s is as near to a point of the chain, or as far into a
    direction of it. *)
 Theorem chain_holds c s x : pos M B i c -> dist c x <= dist c s ->
   exists v, vertex E v /\ match q v with At d => dist d x <= dist d s | Far u => dot u s <= dot u x end.
@@ -257,7 +257,7 @@ Proof.
   - destruct (lowest_spec u (B j)) as [_ L]. specialize (L _ (farthest_inside c (B j))). lra.
 Qed.
 
-(* Where the possible cell goes on for ever, its direction is between those of the chain. *)
+(* Where the possible cell is endless, its direction is between those of the chain. *)
 Lemma ray_between c u y : u <> (0, 0) -> (forall t, 0 <= t -> pos M B i (ahead_by c u t)) ->
   (forall v w, vertex E v -> q v = Far w -> dot w y < 0) -> dot u y < 0.
 Proof.
@@ -411,7 +411,7 @@ Proof.
   unfold Rmin at 2. destruct (Rle_dec (f t) (g t)); lra.
 Qed.
 
-(* What holds of i when no unseen site meets its reach (unseen_far). *)
+(* The property of i when no unseen site meets its reach (unseen_far). *)
 Definition beyond (M N : nat) (B : sites) (i : nat) : Prop :=
   forall c k, pos M B i c -> (M <= k < N)%nat -> dl c (B i) < ds c (B k).
 

@@ -14,7 +14,7 @@ Proof.
     lra.
 Qed.
 
-(* Who is always nearer at the four corners is in all of the box. *)
+(* A site that is always nearer at the four corners is so in all of the box. *)
 Theorem corners_block X Y Q : (forall z, corner z Q -> dl z X < ds z Y) -> forall z, inside z Q -> dl z X < ds z Y.
 Proof.
   intros H [x y] [Hx Hy]. cbn [fst snd] in *. destruct (ratio _ _ _ Hx) as (t & T & Ex). destruct (ratio _ _ _ Hy) as (s & S
@@ -30,11 +30,11 @@ Section Search.
 Variable N : nat.
 Variable B : sites.
 
-(* Somebody is nearer than i in all of the box, as ranges of distances say, or those at its corners. *)
+(* Some site is nearer than i in all of the box, as ranges of distances say, or those at its corners. *)
 Definition kept_out (Q : rect) (i : nat) : Prop := exists k, (k < N)%nat /\
   ((forall z, inside z Q -> dl z (B k) < ds z (B i)) \/ forall z, corner z Q -> dl z (B k) < ds z (B i)).
 
-(* Lists of sites and of pairs, and what is left of them in a box. *)
+(* Lists of sites and of pairs, and their rest in a box. *)
 Definition lists : Type := (list nat * list (nat * nat))%type.
 Definition cut (Q : rect) (l l' : lists) : Prop :=
   (forall i, In i (fst l) -> In i (fst l') \/ kept_out Q i) /\
@@ -59,7 +59,7 @@ Scheme looked_ind2 := Minimality for looked Sort Prop
 with all_looked_ind2 := Minimality for all_looked Sort Prop.
 Combined Scheme looked_both from looked_ind2, all_looked_ind2.
 
-(* Rounds: each cuts the lists for the whole box, looks into it, and goes on with what encloses all that was found. *)
+(* Rounds: each cuts the lists for the whole box, looks into it, and continues with a box around all that was found. *)
 Inductive shrunk : rect -> lists -> rect -> Prop :=
 | shrunk_end Q l : shrunk Q l Q
 | shrunk_round Q l l' F Q' Q'' : cut Q l l' -> looked Q l' (fun _ => False) F -> (forall z, F z -> inside z Q') ->

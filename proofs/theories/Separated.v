@@ -15,7 +15,7 @@ Fixpoint finish (a : point) (l : list point) : point := match l with [] => a | b
 Definition passes_all (z : point) (E : list (point * point)) : Z :=
   fold_right (fun e s => (passes z (fst e) (snd e) + s)%Z) 0%Z E.
 
-(* What an end counts: where it is far above, it goes on upwards, on the right of z or on its left. *)
+(* What an end counts: where it is far above, it continues upwards, on the right of z or on its left. *)
 Definition weighs (high : bool) (z v : point) : Z := if high then right z v else 0%Z.
 
 Definition around (ha hb : bool) (a : point) (l : list point) (z : point) : Z :=
@@ -92,7 +92,7 @@ Section Straight.
 Variables p q : point.
 Variable apart : p <> q.
 
-(* Coordinates in which q is straight above p, and what is left of pq on the right. *)
+(* Coordinates in which q is straight above p, and points left of pq on the right. *)
 Definition up (v : point) : point :=
   ((fst q - fst p) * snd v - (snd q - snd p) * fst v, (fst q - fst p) * fst v + (snd q - snd p) * snd v).
 

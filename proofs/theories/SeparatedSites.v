@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* A chain of centres, endless on both sides, all of whose parts are blocked for two sites: if it crosses the segment
+(* A chain of centres, endless on both sides, with all its parts blocked for two sites: if it crosses the segment
    between a point of one and a point of the other an odd number of times, their pair is not possible [CERT-4]. *)
 From Coq Require Import Reals Lra Lia Psatz ZArith List Bool Classical.
 From Dyadel Require Import Plane Finite Distance Cells Legal Nerve Orientation Path Winding Separated.
@@ -215,7 +215,7 @@ Proof.
   assert (0 <= T * (dot u (c v) - dot u (c k))) by (apply Rmult_le_pos; lra). lra.
 Qed.
 
-(* On a line, what is beyond two points is farther from all between them than one of the two is. *)
+(* On a line, a point beyond two points is farther from all between them than one of the two is. *)
 Lemma beyond_on_line k w s : 0 <= s <= 1 -> dot u (c k) = m -> dot w (c i) < dot w (c k) -> dot w (c j) < dot w (c k) ->
   dist2 (mix s (c i) (c j)) (c k) < dist2 (mix s (c i) (c j)) (c i) ->
   dist2 (mix s (c i) (c j)) (c k) < dist2 (mix s (c i) (c j)) (c j) -> False.

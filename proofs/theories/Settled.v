@@ -4,8 +4,8 @@ From Coq Require Import Reals Lra Lia Psatz Classical.
 From Dyadel Require Import Plane Finite Distance Cells Legal Nerve Orientation Disc TiedFace.
 Open Scope R_scope.
 
-(* B' is what rectangles are narrowed to. Along x those of FX have a core, which stays inside of what they are narrowed
-   to; so have those of FY along y. B has the cores there, and elsewhere what the rectangles are narrowed from. *)
+(* B' is what rectangles are narrowed to. Along x those of FX have a core, which stays inside of their narrowed
+   rectangles; so have those of FY along y. B has the cores there, and elsewhere the rectangles before narrowing. *)
 Definition narrowing (N : nat) (FX FY : nat -> Prop) (B B' : sites) : Prop :=
   forall k, (k < N)%nat ->
     (FX k -> xlo (B' k) <= xlo (B k) /\ xhi (B k) <= xhi (B' k)) /\
@@ -46,13 +46,13 @@ Proof.
   intros K W Hx Hy z [Zx Zy]. destruct (W k K) as [X [_ [Y _]]]. specialize (X Hx). specialize (Y Hy). unfold inside. lra.
 Qed.
 
-(* The interval within the radius r of every place x that the centre may have: each [lo', hi'] that holds what is within
-   r of such a place, in [lo, hi], holds the core [SET-3]. *)
+(* The interval within the radius r of every place x that the centre may have: each [lo', hi'] that holds all within r
+   of such a place, in [lo, hi], holds the core [SET-3]. *)
 Theorem core_stays lo hi lo' hi' x r : lo <= lo' -> hi' <= hi -> lo' <= x - r -> x + r <= hi' ->
   lo' <= hi - 2 * r /\ lo + 2 * r <= hi'.
 Proof. lra. Qed.
 
-(* g chooses points along the sides that stay; a part of the sites is numbered anew, m is the site e m, and stands for
+(* g chooses points along the sides that stay; a part of the sites is numbered anew, m is the site e m, and represents
    all of its rectangle with this choice. *)
 Theorem part_refutes_legal N M FX FY B B' C (g : nat -> point) (e : nat -> nat) a b :
   narrowing N FX FY B B' -> (forall k, (k < N)%nat -> inside (g k) (B k)) ->
@@ -143,7 +143,7 @@ Proof.
   pose proof (End i I (or_introl eq_refl)). pose proof (End j J (or_intror eq_refl)). split; lra.
 Qed.
 
-(* What stands for the site k: all of its rectangle, at a chosen place along the sides that stay. *)
+(* The representation of the site k: all of its rectangle, at a chosen place along the sides that stay. *)
 Definition stands_for (FX FY : nat -> Prop) (B : sites) (k : nat) (Q : point -> Prop) : Prop :=
   exists q, inside q (B k) /\
     forall x, inside x (B k) -> (FX k -> fst x = fst q) -> (FY k -> snd x = snd q) -> Q x.
@@ -316,7 +316,7 @@ Variable others : forall k x, (k < N)%nat -> ~ firm k -> inside x (C k) ->
   inside x (B k) /\ (~ FX k -> fst x = fst (q k)) /\ (~ FY k -> snd x = snd (q k)).
 Variables (Fi : firm i) (Fj : firm j).
 
-(* A point of what stands for a site is near one of the narrowed rectangle. *)
+(* A point of the representation of a site is near one of the narrowed rectangle. *)
 Lemma near_narrowed k x : (k < N)%nat -> inside x (C k) -> exists z, inside z (B' k) /\ dist x z <= e.
 Proof.
   intros K H. destruct (classic (firm k)) as [T | T].

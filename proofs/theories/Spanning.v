@@ -46,7 +46,7 @@ Proof.
   pose proof (L a b _ _ A C (P a A) (P b C)). pose proof (L i j _ _ I J (P i I) (P j J)). lra.
 Qed.
 
-(* ... or somebody strictly inside the disc with the pair as its diameter. *)
+(* ... or a site strictly inside the disc with the pair as its diameter. *)
 Lemma inside_disc_shorter a b z : (fst z - fst a) * (fst z - fst b) + (snd z - snd a) * (snd z - snd b) < 0 ->
   dist a z < dist a b /\ dist z b < dist a b.
 Proof.

@@ -1,6 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* Four points on one circle of the sphere: a sum of determinants, and what it is in longitudes and latitudes [SPH-3].
-  *)
+(* Four points on one circle of the sphere: a sum of determinants, and its value in longitudes and latitudes [SPH-3]. *)
 From Coq Require Import Reals Lra Psatz.
 From Dyadel Require Import Plane Sphere.
 Open Scope R_scope.
@@ -9,7 +8,7 @@ Definition across (u v : space) : space :=
   Space (sy u * sz v - sz u * sy v) (sz u * sx v - sx u * sz v) (sx u * sy v - sy u * sx v).
 Definition det (u v w : space) : R := inner (across u v) w.
 
-(* What is asked of four points. *)
+(* The sum that is 0 for four points on one circle. *)
 Definition coplanar_sum (a b c d : space) : R := det b c d - det a c d + det a b d - det a b c.
 
 Lemma coplanar_differences a b c d : coplanar_sum a b c d = det (minus b a) (minus c a) (minus d a).

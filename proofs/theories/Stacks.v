@@ -67,7 +67,7 @@ Qed.
 
 (* ---- monotone functions ---- *)
 
-(* Ends cut to a range that the value lies in; the hull of what holds the values there. *)
+(* Ends cut to a range that the value lies in; the hull of the balls that hold the values there. *)
 Definition hull (b c : ball) : ball := (Rmin (fst b) (fst c), Rmax (snd b) (snd c)).
 
 Theorem monotone_holds f lo hi b low high x : lo <= x <= hi -> holds b x ->

@@ -22,7 +22,7 @@ Proof.
   - intros [[A D] [F H]]. split; [now apply Rmax_lub | now apply Rmin_glb].
 Qed.
 
-(* It is what all enclosures have in common: every value that all hold, it holds; it lies in each, and shrinks. *)
+(* It is the intersection of all enclosures: every value that all hold, it holds; it lies in each, and shrinks. *)
 Theorem intersection_exact E n v : holds (so_far E n) v <-> forall m, (m <= n)%nat -> holds (E m) v.
 Proof.
   induction n as [| n IH]; simpl.
@@ -200,7 +200,7 @@ Proof.
     now split.
 Qed.
 
-(* What is held after one offer, a rectangle of two sides: the offer, if both sides pass; else the call fails. *)
+(* The rectangle held after one offer, a rectangle of two sides: the offer, if both sides pass; else the call fails. *)
 Inductive offered (held : side * side) (offer : side * side) : side * side -> bool -> Prop :=
 | offer_taken : contains (fst held) (fst offer) -> contains (snd held) (snd offer) -> offered held offer offer true
 | offer_refused : ~ (contains (fst held) (fst offer) /\ contains (snd held) (snd offer)) -> offered held offer held
@@ -212,7 +212,7 @@ Inductive after (start : side * side) : list (side * side) -> side * side -> Pro
 Definition proper_rectangle (r : side * side) : Prop := proper (fst r) /\ proper (snd r).
 Definition in_rectangle (r : side * side) (x y : R) : Prop := holds (of_side (fst r)) x /\ holds (of_side (snd r)) y.
 
-(* An offer is taken over iff it is a subset; else what was held stays. *)
+(* An offer is taken over iff it is a subset; else the rectangle held before stays. *)
 Theorem only_subsets held offer next ok : proper_rectangle held -> proper_rectangle offer -> offered held offer next
   ok ->
   (ok = true <-> forall x y, in_rectangle offer x y -> in_rectangle held x y) /\ next = (if ok then offer else held).
@@ -230,7 +230,7 @@ Proof.
   rewrite Sub. destruct S; (split; [| reflexivity]); [tauto | split; [discriminate | contradiction]].
 Qed.
 
-(* So what is held lies in what was held before, whatever is offered. *)
+(* So the rectangle held lies in the one held before, whatever is offered. *)
 Theorem held_nested start l held : proper_rectangle start -> (forall o, In o l -> proper_rectangle o) -> after start l
   held ->
   proper_rectangle held /\ forall x y, in_rectangle held x y -> in_rectangle start x y.
@@ -243,7 +243,7 @@ Qed.
 
 (* ---- ends on a grid ---- *)
 
-(* Floor and ceiling on multiples of g hold what is between, and move each end by less than g. *)
+(* Floor and ceiling on multiples of g hold all numbers between, and move each end by less than g. *)
 Definition grid_floor (g x : R) : R := IZR (Int_part (x / g)) * g.
 Definition grid_ceiling (g x : R) : R := - grid_floor g (- x).
 

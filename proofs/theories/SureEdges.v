@@ -71,8 +71,8 @@ Proof.
       apply (G e' E' l L Pl). lra.
 Qed.
 
-(* Sure, from one choice p on: there ij is an edge of the hull, its rectangles are apart, and whoever makes possible edges
-   with both is surely oriented. Then all others are strictly on the left, for every choice. *)
+(* Sure, from one choice p on: there ij is an edge of the hull, its rectangles are apart, and each site with possible
+   edges to both is surely oriented. Then all others are strictly on the left, for every choice. *)
 Theorem sure_edge N B i j p : (i < N)%nat -> (j < N)%nat -> choice N B p ->
   (forall x, inside x (B i) -> ~ inside x (B j)) -> (forall k, (k < N)%nat -> 0 <= orient (p i) (p j) (p k)) ->
   (forall k, (k < N)%nat -> k <> i -> k <> j -> possible_edge N B i k -> possible_edge N B j k ->

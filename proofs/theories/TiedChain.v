@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* Tied chains [TIE-3]: neighbours are legal, and the true points are on one line. They stand on it in their order, and
-   no two that are not neighbours are strictly Delaunay. *)
+(* Tied chains [TIE-3]: neighbours are legal, and the true points are on one line. They lie on it in their order, and no
+   two that are not neighbours are strictly Delaunay. *)
 From Coq Require Import Reals Lra Lia Psatz List.
 From Dyadel Require Import Plane Distance Cells Legal Nerve Orientation Path Fan.
 Open Scope R_scope.

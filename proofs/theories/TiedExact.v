@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* What is certain in a face of exact points [TIE-2], by its rim alone: theorems of TiedFace.v, whose premise on all
+(* The certain pairs in a face of exact points [TIE-2], by its rim alone: theorems of TiedFace.v, whose premise on all
    other points is what TiedRim.v shows. *)
 From Coq Require Import Reals Lra Lia Psatz Classical List.
 From Dyadel Require Import Plane Distance Cells Legal Orientation Disc Path Fan TiedFace TiedRim.
@@ -97,7 +97,7 @@ Proof.
   split; intros Q.
   - intros O. apply (sure_hull_not_between N B p v a b Lv La Lb Dav (not_eq_sym Dvb) drawn Q).
     destruct (one_between _ _ _ O) as [X | [X | X]]; [| exact X |].
-    + (* a between v and b: what is off the line is on the wrong side *)
+    + (* a between v and b: a site off the line is on the wrong side *)
       exfalso. destruct X as [t [S E]]. specialize (Left' k Lk).
       assert (t <> 0) by (intros ->; rewrite mix_0 in E; now apply (distinct a v La Lv Dav)).
       assert (t * orient (p v) (p b) (p k) = - orient (p a) (p v) (p k)).

@@ -133,7 +133,7 @@ Proof.
   - exists p, q, s, t, o, r. repeat split; try apply P; try apply Q; try apply S; try apply T; try apply C; exact E.
 Qed.
 
-(* An edge with a triangle on its left and nobody on its right. *)
+(* An edge with a triangle on its left and no site on its right. *)
 Theorem tied_face_hull_edge N B i j p q o r : exact (B i) p -> exact (B j) q -> p <> q ->
   dist o p = r -> dist o q = r -> outside N B i j p q o r ->
   (forall m, (m < N)%nat -> m <> i -> m <> j -> forall z, inside z (B m) -> 0 <= orient p q z) -> legal N B i j.

@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* Nobody is beyond a tied chain of the hull [TIE-3]: a chain of legal links between two sure corners, with the hull of
+(* No site is beyond a tied chain of the hull [TIE-3]: a chain of legal links between two sure corners, with the hull of
    the representatives behind it, whose true points are on one line. Its pairs are weakly Delaunay, by a half-plane, and
    never strictly but for the links.
 

@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* Tied faces [TIE-3]: a polygon of legal sides, whose true points are on one circle. Nobody else is in the disc, or on
-   the circle; all pairs of its vertices are weakly Delaunay; those that are no sides never strictly. *)
+(* Tied faces [TIE-3]: a polygon of legal sides, whose true points are on one circle. No other site is in the disc, or
+   on the circle; all pairs of its vertices are weakly Delaunay; pairs that are not sides never strictly. *)
 From Coq Require Import Reals Lra Lia ZArith List Classical.
 From Dyadel Require Import Plane Distance Cells Legal Nerve Orientation Path TiedRim Winding.
 Open Scope R_scope.
@@ -161,7 +161,7 @@ Proof.
       now apply (one_way u v w).
 Qed.
 
-(* Nobody else is in the disc, or on the circle. *)
+(* No other site is in the disc, or on the circle. *)
 Theorem polygon_empty m : (exists v, on_rim v) -> (m < N)%nat -> ~ on_rim m -> r < dist o (q m).
 Proof.
   intros [v V] M Nm. apply Rnot_le_lt. intros In_.
@@ -196,7 +196,7 @@ Proof.
     left. apply polygon_empty; [now exists i | exact K | exact V].
 Qed.
 
-(* ... and never strictly, if they are no sides. *)
+(* ... and never strictly, if they are not sides. *)
 Theorem polygon_not_strict i j : on_rim i -> on_rim j -> i <> j -> ~ In (i, j) E -> ~ In (j, i) E ->
   ~ strict_edge N q i j.
 Proof.

@@ -44,7 +44,7 @@ Qed.
 Lemma orient_sum a b c z : orient b c z + orient c a z + orient a b z = orient a b c.
 Proof. unfold orient. ring. Qed.
 
-(* What is beyond one side of a triangle, and not outside of its circle, is on the inner side of the others. *)
+(* A point beyond one side of a triangle, and not outside of its circle, is on the inner side of the others. *)
 Lemma cap o a b c z : about o a b = 0 -> about o a c = 0 -> 0 < orient a b c -> orient a b z < 0 -> about o a z <= 0 ->
   0 < orient b c z /\ 0 < orient c a z.
 Proof.
@@ -261,7 +261,7 @@ Definition face_vertex (T : list triangle) (H : list (nat * nat)) (v : nat) : Pr
   (exists t, In t T /\ ta t = v) \/ exists b, In (v, b) H \/ In (b, v) H.
 
 (* A face of the skeleton of the representatives p. T: its triangles, each from all three corners; H: the hull edges of
-   its ghost triangles, all sites on their left. Every side is legal, or the face goes on beyond it, through the ghost
+   its ghost triangles, all sites on their left. Every side is legal, or the face continues beyond it, through the ghost
    too: there the sure vertices of the hull end it. *)
 Definition rimmed (N : nat) (B : sites) (p : nat -> point) (T : list triangle) (H : list (nat * nat)) : Prop :=
   (forall a b c o, In (Tri a b c o) T ->
@@ -282,7 +282,7 @@ Variable drawn : choice N B p.
 Variable rim : rimmed N B p T H.
 Variable distinct : forall v w, (v < N)%nat -> (w < N)%nat -> v <> w -> p v <> p w.
 
-(* Nobody of the choice is in the open disc of a triangle or beyond a hull edge of the face. *)
+(* No point of the choice is in the open disc of a triangle or beyond a hull edge of the face. *)
 Definition good (z : point) : Prop :=
   (forall t, In t T -> 0 <= about (centre t) (p (ta t)) z) /\
   forall e, In e H -> 0 <= orient (p (fst e)) (p (snd e)) z.
@@ -296,7 +296,7 @@ Proof.
 Qed.
 
 Section Other.
-(* A site that is no vertex of the face, somewhere in its rectangle. *)
+(* A site that is not a vertex of the face, somewhere in its rectangle. *)
 Variables (m : nat) (z : point).
 Variable below : (m < N)%nat.
 Variable foreign : ~ face_vertex T H m.
@@ -503,8 +503,7 @@ Proof.
   apply (in_triangle o (p a) (p b) (p c)); try assumption; now apply Aw.
 Qed.
 
-(* A vertex v that a point reaches has no legal edge: the triangles at it, and what is beyond the hull, are all round.
-  *)
+(* A vertex v that a point reaches has no legal edge: the triangles at it, and the part beyond the hull, surround it. *)
 Section Reached.
 Variables (m v : nat) (y : point).
 Variable below : (m < N)%nat.

@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* Triangles joined like a tree: t of them, connected, with t + 2 sides that nobody shares. These are one cycle. So a
-   tied polygon [TIE-3] is known by what can be counted: sides and vertices. *)
+(* Triangles joined like a tree: t of them, connected, with t + 2 sides that are not shared. These are one cycle. So a
+   tied polygon [TIE-3] is known by counting its sides and vertices. *)
 From Coq Require Import Reals Lra Lia List Permutation Classical.
 From Dyadel Require Import Plane Distance Cells Legal Nerve Orientation Path TiedRim Winding TiedPolygon.
 Open Scope R_scope.
@@ -86,14 +86,13 @@ Proof. decide equality; apply Nat.eq_dec. Qed.
 
 (* ---- growing the tree ---- *)
 
-(* No part of the triangles stands alone: from any part of them to the others there is a pair of I. *)
+(* No part of the triangles is separate: from any part of them to the others there is a pair of I. *)
 Definition joined (T : list (nat * nat * nat)) (I : list (nat * nat)) : Prop := forall T1 T2,
   Permutation T (T1 ++ T2) -> T1 <> nil -> T2 <> nil ->
   exists a b, In (a, b) (flat_map both I) /\ In (a, b) (flat_map sides T1) /\ In (b, a) (flat_map sides T2).
 
 Section Tree.
-(* T: triangles, no half-edge of which is in two of them; E: their sides that nobody shares;
-  I: those that are shared. *)
+(* T: triangles, no half-edge of which is in two of them; E: their sides that are not shared; I: the shared sides. *)
 Variables (T : list (nat * nat * nat)) (E I : list (nat * nat)).
 Variable once : NoDup (flat_map sides T).
 Variable rim : Permutation (flat_map sides T) (E ++ flat_map both I).
@@ -206,7 +205,7 @@ Proof.
 Qed.
 
 (* Ghost triangles joined like a tree, with t + 2 sides out of different vertices: their links are one way, whose ends
-   are the two vertices joined with the ghost by sides that nobody shares, and all its vertices are different. *)
+   are the two vertices joined with the ghost by sides that are not shared, and all its vertices are different. *)
 Theorem ghosts_one_way T E I g : NoDup (flat_map sides T) -> Permutation (flat_map sides T) (E ++ flat_map both I) ->
   joined T I -> length E = (length T + 2)%nat -> NoDup (map fst E) ->
   (forall a b c, In (a, b, c) T -> c = g /\ a <> g /\ b <> g) ->
@@ -261,9 +260,8 @@ Qed.
 (* ---- tied faces ---- *)
 
 (* A face of at least two triangles, whose sides are legal and out of different vertices, whose true points are on one
-   circle: nobody else is in the disc or on the circle, all pairs of its vertices are weakly Delaunay, and those that
-     are
-   no sides never strictly. *)
+   circle: no other site is in the disc or on the circle, all pairs of its vertices are weakly Delaunay, and pairs that
+   are not sides never strictly. *)
 Theorem tied_polygon N B p q T E I o r : choice N B p -> choice N B q ->
   NoDup (flat_map sides T) -> Permutation (flat_map sides T) (E ++ flat_map both I) -> joined T I ->
   length E = (length T + 2)%nat -> (2 <= length T)%nat -> NoDup (map fst E) ->

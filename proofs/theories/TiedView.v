@@ -116,7 +116,7 @@ Proof.
   unfold orient, shift, turn in *. simpl. lra.
 Qed.
 
-(* To what is above z, and beyond it in the direction of u. *)
+(* To a point above z, and beyond it in the direction of u. *)
 Lemma up_from u z a : dot u z < dot u a -> snd z < snd a ->
   passes z (shift u z) a = (right z a - right z (shift u z))%Z.
 Proof.
@@ -134,7 +134,7 @@ Proof.
     assert (0 < snd u * - (fst a - fst z)) by (apply Rmult_lt_0_compat; lra). lra.
 Qed.
 
-(* At what is beyond the line from a to b. *)
+(* At a point beyond the line from a to b. *)
 Lemma winds_beyond n u z a b : 0 < fst n -> 0 < turn n u -> snd b < snd z -> snd b < snd a ->
   dot u z < dot u a -> dot u b < dot u a -> 0 < orient a b z -> (passes z a b + way_back n u z a b < 0)%Z.
 Proof.
@@ -175,7 +175,7 @@ Proof.
     + lia.
 Qed.
 
-(* Around what is next to the end b of the hull's edge from b to h, where all else is above. *)
+(* Around a point next to the end b of the hull's edge from b to h, where all else is above. *)
 Lemma winds_not_next_to n u z a b h : 0 < fst n -> 0 < turn n u -> snd b < snd z -> snd z < snd h ->
   snd z < snd a -> dot u z < dot u a -> 0 < orient b h z ->
   (way_back n u z a b = passes z b h + (right z a - right z h))%Z.
@@ -190,7 +190,7 @@ Proof.
     assert (0 < (fst z - fst b) * (snd h - snd z)) by (apply Rmult_lt_0_compat; lra). lra.
 Qed.
 
-(* Sides on one line, and z beside it. *)
+(* Sides on one line, and z off it. *)
 Lemma winds_not_beside_line E f l (q : nat -> point) z : walk f E l -> orient (q f) (q l) z <> 0 ->
   (forall a b, In (a, b) E -> orient (q f) (q l) (q a) = 0 /\ orient (q f) (q l) (q b) = 0) ->
   total (fun a b => passes z (q a) (q b)) E = passes z (q f) (q l).

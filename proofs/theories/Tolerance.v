@@ -181,7 +181,7 @@ Proof.
       - (- jy * (fst c - fst (p i)) + jx * (snd c - snd (p i))) * jx); [rewrite H; field | rewrite Q; field].
 Qed.
 
-(* Towards its ends the bisector's circles become the two half-planes beside the line of p i and p j: k is then beyond
+(* Towards its ends the bisector's circles become the two half-planes next to the line of p i and p j: k is then beyond
    them by -+ n / |J|. *)
 Let gap (k : nat) (s : R) : R := dist (at_s s) (p k) - dist (at_s s) (p i).
 Let size : R := dist (p i) (p j).

@@ -124,7 +124,7 @@ Proof.
   assert (Ge : forall k, (k < N)%nat -> pair i j k -> m - t * l <= dot u (p k)).
   { intros k K Y. pose proof (dot_moved u (q k) (p k)) as X. fold l in X. rewrite (dist_sym (q k)) in X.
     pose proof (M k K). pose proof (On k K Y). nra. }
-  (* the centre far out along u: what is nearer than x - height is not far below it *)
+  (* the centre far out along u: a site nearer than x - height is not far below it *)
   set (a k := dot u (p k) / l - dot u (p i) / l).
   set (b := dist2 (p i) (p j)). assert (B0 : 0 <= b) by apply dist2_nonneg.
   set (x := Rabs (a j) + b / e + 1). set (c := along u (x / l) (p i)).

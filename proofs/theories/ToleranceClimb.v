@@ -183,7 +183,7 @@ Proof.
   apply continuity_mult; [apply derivable_continuous, derivable_id | now apply continuity_const].
 Qed.
 
-(* Near a place where all lowest lines rise (or all fall: side is -1), f is higher beside it. *)
+(* Near a place where all lowest lines rise (or all fall: side is -1), f is higher next to it. *)
 Lemma way_up S s side w : side * side = 1 -> 0 < w -> room S w (at_s s) ->
   (forall k, other N i j S k -> above k s = w -> 0 < side * trend k s) -> exists t, forall k, other N i j S k -> w < above k t.
 Proof.

@@ -134,7 +134,7 @@ Proof.
   - right. destruct R as [R | R]; [left | right]; intros k K _ Di Dj; now apply R.
 Qed.
 
-(* Farther out: at an end at which nobody else is nearer, that is the supremum for all. *)
+(* Farther out: at an end at which no other site is nearer, that is the supremum for all. *)
 Theorem others_enough_at_end S w side : side * side = 1 -> (forall v, rooms N p i j S v -> v <= w) ->
   room_at_end N p i j everybody side w -> is_lub (rooms N p i j everybody) w.
 Proof.
@@ -144,7 +144,7 @@ Proof.
     pose proof (B _ (end_is_approached N p i j differ everybody side w ((w - b) / 2) ltac:(lra) Q R)). lra.
 Qed.
 
-(* Who is born up to t is possible for squares of that half-width. *)
+(* A pair that is born up to t is possible for squares of that half-width. *)
 Theorem born_in_squares w t B : (i < N)%nat -> (j < N)%nat -> is_lub (rooms N p i j everybody) w -> 0 <= t ->
   - w / 2 <= t -> (forall k z, (k < N)%nat -> Rabs (fst z - fst (p k)) <= t -> Rabs (snd z - snd (p k)) <= t ->
     inside z (B k)) -> possible N B i j.

@@ -4,7 +4,7 @@ From Coq Require Import Reals Lra Lia Psatz Classical List.
 From Dyadel Require Import Plane Finite Cells Legal Orientation Disc TiedFace Path Tolerance.
 Open Scope R_scope.
 
-(* What holds near t for each of finitely many sites holds for all. *)
+(* A property that holds near t for each of finitely many sites holds for all. *)
 Lemma all_near N t (P : nat -> R -> Prop) : (forall k, (k < N)%nat -> near t (P k)) ->
   near t (fun s => forall k, (k < N)%nat -> P k s).
 Proof.
@@ -224,7 +224,7 @@ Proof.
 Qed.
 End Sites.
 
-(* Any sites will do at whose best place nobody else is nearer. *)
+(* Any sites will do at whose best place no other site is nearer. *)
 Theorem others_enough N p i j S w c : (forall v, rooms N p i j S v -> v <= w) -> room N p i j everybody w c ->
   is_lub (rooms N p i j everybody) w.
 Proof.

@@ -89,8 +89,8 @@ Proof.
   - exists u, (mix s u w), w. rewrite !Zero. fold d. repeat split; try assumption. lra.
 Qed.
 
-(* Each point moves by at most s < t times its weight. Whoever is strictly an edge is one for all motions of less than t,
-   and balls that grow with the weights do not meet on a chord before t: then no status changes. *)
+(* Each point moves by at most s < t times its weight. A pair that is strictly an edge is one for all motions of less
+   than t, and balls that grow with the weights do not meet on a chord before t: then no status changes. *)
 Theorem norm_unchanged N p q faces rim edge (sk : skeleton N p faces rim edge) r t : (forall k, 0 <= r k) ->
   (forall k l, (k < N)%nat -> (l < N)%nat -> k <> l -> p k <> p l) ->
   (forall i j, edge i j -> (i < N)%nat /\ (j < N)%nat /\ i <> j /\ strict_edge N p i j) ->

@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* All points move straight from p to q. While nobody comes to an edge of a triangulation, and no corner of the hull comes
-   between its neighbours (those on one line with them stay where they are), the triangulation stays as it is. *)
+(* All points move straight from p to q. While no site comes to an edge of a triangulation, and no corner of the hull
+   comes between its neighbours (those on one line with them stay where they are), the triangulation stays as it is. *)
 From Coq Require Import Reals Lra Lia Psatz Classical List.
 From Dyadel Require Import Plane Finite Distance Cells Legal Nerve Orientation Disc TiedFace Crossing Path Fan
   Triangulation ToleranceNear.
@@ -74,7 +74,7 @@ Proof.
 Qed.
 
 (* Along a line of the hull: steps u v from corner to corner, all on one side (sg is 1 or -1: both ways round). Where
-   three consecutive corners turn strictly or are flat, whoever is on the line of a side is reached by flat corners. *)
+   three consecutive corners turn strictly or are flat, each site on the line of a side is reached by flat corners. *)
 Section Chain.
 Variables (N : nat) (z : nat -> point) (step : nat -> nat -> Prop) (sg : R) (flat : nat -> nat -> nat -> Prop).
 Variable sites : forall u v, step u v -> (u < N)%nat /\ (v < N)%nat /\ u <> v.
@@ -316,8 +316,8 @@ Proof.
     exists e. split; [exact E |]. intros s S _ Ne. apply Ne. destruct (G s S) as [Y1 [Y2 Y3]]. unfold in_face. lra.
 Qed.
 
-(* At the end b is no partner of a, but one of a's faces: where for each of a's faces some circle through the side across
-   has neither inside, and one of them outside, and b is on no flat side of the hull at a. *)
+(* At the end b is not a partner of a, but one of a's faces: where for each of a's faces some circle through the side
+   across has neither inside, and one of them outside, and b is on no flat side of the hull at a. *)
 Theorem others_are_no_edges a b : (a < N)%nat -> (b < N)%nat -> a <> b ->
   (forall i j, In (i, j) (faces a) -> b <> i /\ b <> j) ->
   (forall i j, In (i, j) (faces a) -> exists o r, dist o (q i) = r /\ dist o (q j) = r /\

@@ -51,7 +51,7 @@ Proof.
   rewrite <- Z in D. destruct (positive_disc N p (pair a b) c D) as [c' [r [P D']]]. now exists c', r.
 Qed.
 
-(* Two sites on a line with nobody beyond it, and nobody between them. *)
+(* Two sites on a line with no site beyond it, and no site between them. *)
 Lemma hull_pair_is_strict N p u v a b : u <> v -> (forall k, (k < N)%nat -> 0 <= orient u v (p k)) ->
   orient u v (p a) = 0 -> orient u v (p b) = 0 ->
   (forall k l, (k < N)%nat -> (l < N)%nat -> k <> l -> p k <> p l) -> (a < N)%nat -> (b < N)%nat -> a <> b ->
@@ -114,7 +114,7 @@ Let x (t : R) (k : nat) : point := path p q t k.
 
 Variable strict_stays : forall i j, (i < N)%nat -> (j < N)%nat -> i <> j -> strict_edge N p i j ->
   forall t, 0 <= t <= 1 -> strict_edge N (x t) i j.
-(* Circles of undecided faces, so many of them as there are edges drawn in one. *)
+(* Circles of undecided faces: each edge drawn in such a face has its ends on one of them. *)
 Variable tied : point -> R -> Prop.
 Variable tied_stays : forall o r, tied o r -> staying_circle N p q o r.
 Variable edges : forall i j, edge i j -> (i < N)%nat /\ (j < N)%nat /\ i <> j /\ (strict_edge N p i j \/
@@ -131,7 +131,7 @@ Proof.
   rewrite (dist_sym (mix t (p k) (q k))) in B. lra.
 Qed.
 
-(* Nobody comes into the circle: each of its arcs is in the disc of a side of the polygon, which is an edge. *)
+(* No site comes into the circle: each of its arcs is in the disc of a side of the polygon, which is an edge. *)
 Lemma nobody_on_circle o r k s : staying_circle N p q o r -> (k < N)%nat -> dist o (p k) <> r -> 0 <= s <= 1 ->
   dist o (x s k) <> r.
 Proof.
@@ -173,7 +173,7 @@ Proof.
     assert (Third : exists m, (m < N)%nat /\ on m /\ m <> i /\ m <> j).
     { destruct (classic (a <> i /\ a <> j)) as [[Y1 Y2] | Y]; [now exists a |].
       destruct (classic (b <> i /\ b <> j)) as [[Y1 Y2] | Y']; [now exists b |]. exists c. repeat split; auto; lia. }
-    (* who is seen between them from z is beyond the line from i to j *)
+    (* a site seen between them from z is beyond the line from i to j *)
     assert (Far : forall m, (m < N)%nat -> on m -> m <> i -> m <> j -> 0 < orient z (p m) (p j) /\
       0 < orient z (p i) (p m) /\ orient (p m) (p i) (p j) < 0).
     { intros m M Om Di Dj. destruct (Order m M Om) as [O1 O2].
@@ -330,7 +330,7 @@ Proof.
   split; split; intros; tauto.
 Qed.
 
-(* All other pairs are no edges at the end. *)
+(* All other pairs are not edges at the end. *)
 Lemma other_pair a b : (a < N)%nat -> (b < N)%nat -> a <> b -> ~ strict_edge N p a b ->
   (forall o r, tied o r -> ~ (dist o (p a) = r /\ dist o (p b) = r)) ->
   (forall u v, rim u v -> ~ (on_side_line u v a /\ on_side_line u v b)) -> ~ weak_edge N q a b.

@@ -46,8 +46,8 @@ Variables (N : nat) (p q : nat -> point) (faces : nat -> list (nat * nat)) (rim 
 Variable sk : skeleton N p faces rim edge.
 Variable different : forall k l, (k < N)%nat -> (l < N)%nat -> k <> l -> p k <> p l.
 
-(* An edge of the triangulation is strictly Delaunay, or one of those that are drawn in an undecided face: nobody is inside
-   of a circle through its ends and a third site, and whoever is on it stays at its place. *)
+(* An edge of the triangulation is strictly Delaunay, or drawn in an undecided face: no site is inside of a circle
+   through its ends and a third site, and each site on it stays at its place. *)
 Definition edges_drawn : Prop := forall i j, edge i j -> (i < N)%nat /\ (j < N)%nat /\ i <> j /\
   (strict_edge N p i j \/ exists o r, staying_circle N p q o r /\ dist o (p i) = r /\ dist o (p j) = r).
 
@@ -138,7 +138,7 @@ Proof.
     exfalso. apply Wq. now apply strict_is_weak.
 Qed.
 
-(* A circle, or a line, with both ends of the edge on its inner side and all others outside, which nobody reaches. *)
+(* A circle, or a line, with both ends of the edge on its inner side and all others outside, which no site reaches. *)
 Definition ring_keeps (i j : nat) (c : point) (m : R) : Prop :=
   dist c (p i) < m /\ dist c (p j) < m /\ (forall k, (k < N)%nat -> k <> i -> k <> j -> m < dist c (p k)) /\
   forall k, (k < N)%nat -> dist (p k) (q k) < Rabs (dist c (p k) - m).
@@ -179,7 +179,7 @@ Proof.
   - eexists. apply (F (t0 + 1)). lra.
 Qed.
 
-(* [TOL-5] The whole: t is at most every death, and half the distance of every such corner; there are no ties. *)
+(* [TOL-5] The whole: t is at most every death, and half the distance of every such corner; ties do not occur. *)
 Theorem whole_unchanged t : (forall i j, edge i j -> (i < N)%nat /\ (j < N)%nat /\ i <> j /\ strict_edge N p i j) ->
   (forall i j, (i < N)%nat -> (j < N)%nat -> i <> j -> strict_edge N p i j ->
     forall s, s < t -> exists c, disc_witness N p i j s c) ->
@@ -200,7 +200,7 @@ Proof.
     intros k K. assert (B : (k < N)%nat) by (destruct K as [-> | [-> | ->]]; assumption). pose proof (M k B). nra.
 Qed.
 
-(* [TOL-6] Each point: a circle or line of its own for every strictly Delaunay edge, which nobody reaches. *)
+(* [TOL-6] Each point: a circle or line of its own for every strictly Delaunay edge, which no site reaches. *)
 Theorem points_unchanged : edges_drawn ->
   (forall i j, (i < N)%nat -> (j < N)%nat -> i <> j -> strict_edge N p i j ->
     (exists c m, ring_keeps i j c m) \/ (exists u m, line_keeps i j u m)) -> hull_corners_keep ->

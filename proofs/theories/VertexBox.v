@@ -14,7 +14,7 @@ Proof.
   apply Rplus_le_compat; [| now apply Rmult_le_compat_l]. apply Rmult_le_compat; try lra. apply Rabs_pos.
 Qed.
 
-(* Twice the area of the triangle of a and b is no less than at the middles, less what it may vary. *)
+(* Twice the area of the triangle of a and b is no less than at the middles, less its possible variation. *)
 Theorem cross_least ax ay kx ky rax ray rkx rky px py qx qy : Rabs (px - ax) <= rax -> Rabs (py - ay) <= ray ->
   Rabs (qx - kx) <= rkx -> Rabs (qy - ky) <= rky ->
   Rabs (ax * ky - ay * kx) - (rax * (Rabs ky + rky) + Rabs ax * rky + ray * (Rabs kx + rkx) + Rabs ay * rkx) <=

@@ -8,11 +8,11 @@ Open Scope R_scope.
 Definition diagram (N : nat) (p : nat -> point) (z : point) : Prop :=
   exists i j, (i < N)%nat /\ (j < N)%nat /\ p i <> p j /\ cell N p i z /\ cell N p j z.
 
-(* The undetermined set: what is in no Int. *)
+(* The undetermined set: the points in no Int. *)
 Definition undetermined (N : nat) (B : sites) (z : point) : Prop := forall i, (i < N)%nat -> ~ int N B i z.
 
-(* The true diagram is undetermined, for every choice: the undetermined area bounds it, and what is left of a window
-   when sets inside the cells Int are taken away bounds the undetermined area. *)
+(* The true diagram is undetermined, for every choice: the undetermined area bounds it, and the rest of a window when
+   sets inside the cells Int are taken away bounds the undetermined area. *)
 Theorem diagram_is_undetermined N B p z : choice N B p -> diagram N p z -> undetermined N B z.
 Proof.
   intros P [i [j [I [J [D [Ci Cj]]]]]] k K H. assert (Dij : i <> j) by (now intros ->). pose proof (proj1 (int_exact N B k z K) H p P) as O.

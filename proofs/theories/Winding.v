@@ -87,7 +87,7 @@ Section Side.
 Variables (z : R -> point) (t : R).
 Variable move_z : moves z.
 
-(* 1 for what is straight above z at the time t and to its right at s. *)
+(* 1 for a point straight above z at the time t and to its right at s. *)
 Definition above (v : R -> point) (s : R) : Z :=
   if Req_EM_T (fst (v t)) (fst (z t)) then if Rlt_dec (snd (z t)) (snd (v t)) then right (z s) (v s) else 0%Z else 0%Z.
 
@@ -287,7 +287,7 @@ Proof.
     lia.
 Qed.
 
-(* Around what is not in a triangle, it does not wind. *)
+(* Around a point that is not in a triangle, it does not wind. *)
 Lemma one_left z a b c : fst a < fst z -> fst z <= fst b -> fst z <= fst c -> 0 < orient a b c ->
   ~ (0 <= orient a b z /\ 0 <= orient b c z /\ 0 <= orient c a z) -> (orient a b z < 0 <-> 0 < orient c a z).
 Proof.
@@ -365,7 +365,7 @@ Proof.
   unfold total in *. simpl. rewrite IH by (intros x y w X; apply H; now right). lia.
 Qed.
 
-(* ---- what is on the left of all sides ---- *)
+(* ---- the points on the left of all sides ---- *)
 
 (* Before in the order of directions from straight down counterclockwise to straight up, on the right of 0. *)
 Definition before (x y : point) : Prop :=
