@@ -39,7 +39,7 @@ def code(text):
 
 
 def words(source):
-    """Words in the sources that leave out a proof. Variables of a section are fine: the theorem then states them."""
+    """Words in the sources that skip a proof. Variables of a section are fine: the theorem then states them."""
     for name in theories.listed(source):
         for found in FORBIDDEN.finditer(code((source / name).read_text(encoding='utf-8'))):
             yield f'{name}: {found[0]}'

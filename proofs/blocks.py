@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Blocks of certificates, which say what points are: dyadel-proved against `dyadel verify` [CERT-10].
+"""Blocks of certificates, which define points: dyadel-proved against `dyadel verify` [CERT-10].
 
 Usage: blocks.py DYADEL_PROVED DYADEL [COUNT]
 
-Certificates of points that are told apart, or seen to be the same, by what they are, and of COUNT random expressions
-(default 16); each line of a block changed, and the rectangles. What verify accepts is proved; what it refuses is
-refused, or not proved. Facts by bound, and numbers that are nearly what they should be: proved by both or by none.
+Certificates of points that are proved to be different, or the same, by their expressions, and of COUNT random
+expressions (default 16); each line of a block changed, and the rectangles. A certificate that verify accepts is proved;
+one that it refuses is refused, or not proved. Facts by bound, and numbers that are nearly right: proved by both or by
+none.
 Regular polygons of 3 to 24 corners, all proved; each of them with its cycle, an index, a cosine, a sine, the sign of
 one changed, all refused.
 """
@@ -21,7 +22,7 @@ from checker import ALL, NOT_ALL, REJECTED, Checkers
 SEED = 5
 ALIAS = '{} 0\n10 10\n{} 0\n-9 4\n'
 SQUARE = 'sqrt(2) 0\n0 sqrt(2)\n-sqrt(2) 0\n0 -sqrt(2)\n'
-# points; of which so many are described, with so many facts
+# points; number of described points; number of facts
 KNOWN = [
     (SQUARE, 4, 1),
     (''.join(f'cos({k}+1/3)*sqrt(8) sin({k}+1/3)*sqrt(8)\n' for k in range(6)), 6, 1),
@@ -119,7 +120,7 @@ def changed_word(rng, word):
 
 
 def forged_blocks(rng, text, most):
-    """The text with one line of the blocks changed: a word, its place, left out, said twice."""
+    """The text with one line of the blocks changed: a word, its place, removed, repeated."""
     lines = text.split('\n')
     first, last = lines.index(next(row for row in lines if row.startswith('algebra '))), lines.index('end')
     found = []
@@ -134,7 +135,7 @@ def forged_blocks(rng, text, most):
 
 
 def moved_sides(text):
-    """The text with each side lo+w of a site in the place beside it, and narrowed by one unit of its width at either end."""
+    """The text with each side lo+w of a site in the next place, and narrowed by one unit of its width at either end."""
     lines = text.split('\n')
     first = next(k for k, line in enumerate(lines) if line.startswith('sites ')) + 1
     value = lambda word: [int(z) for z in (word + '*2^0').split('*2^')[:2]]  # noqa: E731
@@ -294,7 +295,7 @@ FACTS = [
     (squared(160), ('4 5', '2 5'), 'same 0 1 bound', AT_0, True), (squared(160), ('4 5', '6 5'), 'same 0 1 bound', AT_0, False),
     (squared(760), ('4 5', '2 5'), 'same 0 1 bound', AT_0, True), (squared(760), ('4 5', '6 5'), 'same 0 1 bound', AT_0, False),
     (squared(760), ('2 5', '6 5'), 'same 0 1 bound', AT_0, False),
-    # what verify proves, and what it gives up on: coefficients, a root to many bits
+    # expressions that verify proves, and those it gives up on: coefficients, a root to many bits
     (ROOT_2 + ['= 3', 'sqrt 2', '= 5', 'sqrt 4', '= 7', 'sqrt 6', '+ 1 3', '+ 8 5', '+ 9 7',
                f'root 2007/250 8029/1000 {DEGREE_16}', '= 0'], ('10 12', '11 12'), 'same 0 1 bound', ('8+1 0', '7+2 0'), False),
     (large(900), ('4 11', '10 11'), 'same 0 1 bound', LARGE, True),
@@ -338,7 +339,7 @@ def ring(fifth, pairs, facts=('circle 0 1 2 3 identity',), numbers=('= 2', 'sqrt
 
 
 def try_rings(both):
-    """Ties by a circle that a block shows: only when nobody is inside, or on it besides, and the pair crosses another."""
+    """Ties by a circle that a block shows: only when no other site is inside or on it, and the pair crosses another."""
     for fifth, pairs, left in RINGS:
         answer = both.ask(both.proved, text=ring(fifth, pairs))
         loose = re.search(r'not proved: that (\d+) pairs are ties', answer.stdout)

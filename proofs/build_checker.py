@@ -18,7 +18,7 @@ READERS = ('source', 'described', 'reader', 'hints', 'cuts', 'circles', 'crossin
 
 
 def link(work, output, sources):
-    """A program of what was extracted in `work`, with Zarith, and checks of all bounds."""
+    """A program of the OCaml extracted in `work`, with Zarith, and checks of all bounds."""
     subprocess.run(['ocamlfind', 'ocamlopt', '-package', 'zarith', '-linkpkg', '-w', '-a', '-inline', '100', '-o',
                     output, *sources], cwd=work, check=True)
 

@@ -5,9 +5,10 @@
 Usage: checker.py ROOT DYADEL_PROVED DYADEL [COUNT]
 
 On certificates of the airports and of COUNT random inputs (default 70), on mutants of these, on forgeries, chains and
-diagrams among them, and on texts in another spelling: what verify accepts is accepted, and of what is all proved verify
-says so too; what is accepted and rejected as it has to be; of ties at least as much as verify proves; parts that it does not know are named. The time grows little
-faster than the number of sites, so do the triangles that cover the plane.
+diagrams among them, and on texts in another spelling: a certificate that verify accepts is accepted, and one that is
+proved entirely is so by verify, too; each is accepted or rejected as it must be; of ties at least as much as verify
+proves; parts that it does not know are named. The time grows little faster than the number of sites, so do the
+triangles that cover the plane.
 """
 import os
 import pathlib
@@ -25,7 +26,7 @@ COVER_GROWTH = 1.3
 
 
 def gaps(answer):
-    """What is said not to be proved, but for ties: of them verify proves fewer."""
+    """Parts reported as not proved, except ties: of them verify proves fewer."""
     rows = answer.stdout.splitlines()
     return [row for row in rows if row.startswith('not proved: ') and 'pairs are ties' not in row]
 
@@ -171,7 +172,7 @@ def try_random(both, count):
 
 
 def forgeries(path):
-    """The texts of the file, and what is said of each."""
+    """The texts of the file, and the remark on each."""
     text = []
     for line in path.read_text().splitlines(keepends=True):
         if line.startswith('---- '):

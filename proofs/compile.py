@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Compiles the theories listed in proofs/theories/_CoqProject, in a folder of the build.
 
-Usage: compile.py ROOT FOLDER   (FOLDER/theories gets the sources and what coqc makes of them)
+Usage: compile.py ROOT FOLDER   (FOLDER/theories gets the sources and the compiled files)
 
-Only what has changed is compiled again, two files at a time. Runs at the same time wait for each other.
+Only changed theories, and those that use them, are compiled again, two files at a time. Runs at the same time wait
+for each other.
 """
 import fcntl
 import pathlib
@@ -21,7 +22,7 @@ def listed(source):
 
 
 def breaches(source):
-    """What is wrong with the list itself."""
+    """Faults of the list."""
     names, there = listed(source), {path.name for path in source.glob('*.v')}
     yield from (f'{name} is listed twice' for name in sorted(set(names)) if names.count(name) > 1)
     yield from (f'{name} is not in proofs/theories/_CoqProject' for name in sorted(there - set(names)))

@@ -59,7 +59,7 @@ class Programs:
 
 
 def tried(root, programs, definition, cases):
-    """What is wrong; prints each fault."""
+    """Yields the failures; prints each fault."""
     of = set()
     for function, path, text, replacement, reason in faults(root / 'proofs/definitions/faults.txt'):
         of.add(function)

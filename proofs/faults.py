@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Faults that are put into functions in C, one at a time, to see that a test notices them.
 
-A line of a file of faults: FUNCTION | file below src | text | its replacement | reason, for those that are not noticed.
-The text occurs once in the function, or else in the file; \\n in it stands for the end of a line.
+A line of a file of faults: FUNCTION | file below src | text | its replacement | reason, for a fault not noticed.
+The text occurs once in the function, or else in the file; \\n in it means the end of a line.
 """
 import pathlib
 import re

@@ -5,23 +5,23 @@
 Usage: overflow.py ROOT [PART [FILE]]   (exit status 1: a goal is not proved, or a seeded fault is; 77: Frama-C, Why3 or
 CVC4 is absent). PART: one of PARTS; without it, all. FILE: only this one of the part.
 
-overflow/NAME.c has contracts for the functions of src/FOLDER/NAME.c and .h, and includes it; overflow/NAME.acsl says
-what holds in its loops: each paragraph, what is put before a text, where \\n stands for the end of a line; a line `copy
-ITEM TO = FROM;`, that this assignment of a structure (TO: a type and a name, where it is declared there) is copy_ITEM, of
-whose parts WP knows what they are.
-overflow/gmp.h says what is taken for granted of GMP, overflow/math.h of the functions on doubles, other headers there
-of the C library. Of each function WP proves what it promises, the conditions of all that it calls, and that no operation
-is undefined: signed overflow, memory that is not there, shifts, conversions of integers that lose something. What is put
-in as `admit` is assumed. Functions that are not proved are named in overflow/NAME.c, as well as goals that CVC4 does not
+overflow/NAME.c has contracts for the functions of src/FOLDER/NAME.c and .h, and includes it; overflow/NAME.acsl has
+the annotations of its loops: each paragraph is put before a text, where \\n means the end of a line; a line `copy
+ITEM TO = FROM;`, that this assignment of a structure (TO: a type and a name, where it is declared there) is copy_ITEM,
+whose parts WP knows.
+overflow/gmp.h has the assumptions on GMP, overflow/math.h of the functions on doubles, other headers there
+of the C library. Of each function WP proves its contract, the conditions of all that it calls, and that no operation
+is undefined: signed overflow, memory that is not there, shifts, conversions of integers that lose something. An `admit`
+is an assumption. Functions that are not proved are named in overflow/NAME.c, as well as goals that CVC4 does not
 prove, or only where it has the machine for itself, with the reason:
 
     /* Without FUNCTION, FUNCTION: reason. */
     /* Unproved GOAL, GOAL: reason. */
 
-What NAME.acsl says of a function that is left out is what was tried.
+NAME.acsl may have annotations of a function without a proof: an attempt.
 
 All of it takes 25 minutes of a core. overflow/proved.txt has a digest for each file that was proved, of all texts that
-its proof rests on; with PART alone, files whose digest is this one are not proved again, but for some functions of some,
+its proof rests on; with PART alone, files with the same digest are not proved again, but for some functions of some,
 which change with the digests. With FILE, or without PART, everything named is proved, and the digests are written.
 
 Then faults of overflow/faults.txt are put in, one at a time in a function (faults.py): another goal of it has to fail,
@@ -49,10 +49,10 @@ PARTS = {  # tests of some minutes; those but the first are of what reads and ke
     'values': ['number', 'quotient', 'algebra_read', 'enclosure', 'inverse'],
     'blocks': ['algebra', 'algebra_enclose', 'algebra_bound', 'bracket', 'cycle', 'ties'],
 }
-UNWRITTEN = {'caps', 'discs', 'graphs', 'near', 'places'}  # of src/checker, all functions left out: contract not written yet
+UNWRITTEN = {'caps', 'discs', 'graphs', 'near', 'places'}  # of src/checker, not proved: contract not written yet
 # About certificates on a sphere: of fractions of GMP, lists of enclosures, and a checker within one no header says enough.
 LEFT_OUT = {'around', 'cocircular', 'globe', 'globe_near', 'globe_places', 'image', 'region', 'sphere'}
-# Not proved again since they, or headers that they include, were changed: passed over where a part is asked for.
+# Not proved again since they, or headers that they include, were changed: skipped where a PART is given.
 OUTDATED = {'parts', 'checker', 'measure', 'fixpoint', 'faces', 'certificate', 'pairs', 'diagram'}
 ITEMS = {'start': 'sizes', 'first': 'sizes', 'entry': 'entries', 'term': 'terms', 'digits': 'chars', 'den': 'numbers',
          'place': 'places', 'point': 'described', 'c': 'coefficients', 'cosine': 'cosines',
@@ -60,7 +60,7 @@ ITEMS = {'start': 'sizes', 'first': 'sizes', 'entry': 'entries', 'term': 'terms'
 ZEROED = {'spare': 'sizes', 'covered': 'pair_counts', 'times': 'indices', 'stamp': 'stamps',
           'b': 'block'}  # others: flags
 EXTRA = {'alloc': ['-warn-unsigned-overflow'], 'text': ['-wp-literals'], 'poly': ['-wp-literals', '-wp-prop=-owned'],
-         'quotient': ['-wp-prop=-owned'],  # what has this name in terms.h is not proved
+         'quotient': ['-wp-prop=-owned'],  # the property of this name in terms.h is not proved
          **{name: ['-wp-literals'] for name in ('checker', 'pairs', 'diagram', 'certificate')},
          'read': ['-wp-literals', '-no-warn-signed-downcast']}  # a byte becomes a char
 OPTIONS = ['-wp', '-wp-rte', '-warn-special-float', 'none',  # doubles are another matter
@@ -68,14 +68,14 @@ OPTIONS = ['-wp', '-wp-rte', '-warn-special-float', 'none',  # doubles are anoth
            '-rte-no-pointer-call',  # that one of the functions after `calls` is called is proved; without it, other goals fail
            '-wp-no-pruning', '-wp-no-ground',  # a sixth of the time, and nothing more proved
            '-wp-par', '2']  # one after another, half of the time is waited
-AGAIN, SHARE = 16, 4  # of so many files whose proofs are known, one is proved again: one of so many of its functions
+AGAIN, SHARE = 16, 4  # one in AGAIN files with a known proof is proved again: one in SHARE of its functions
 SOON, MOST, FEW, SLOW = 20, 150, 4, 2  # seconds for a goal, for one left over, for one with a fault; of one that is slow
 FUNCTION = re.compile(r'^(?!typedef|struct|[#/\s])[\w *]*?\b(\w+)\((?:[^;{}()]|\([^()]*\))*\)\s*\{', re.M)
 
 
 def goals(root, name, work, options, until=lambda name: False):
-    """(goals, names of those that are not proved) of a file, and the output, which ends at a goal that is not proved
-    and `until` holds of. Only what is in the current folder comes before Frama-C's own headers. A goal that a fault does
+    """(goals, names of unproved ones) of a file, and the output, which ends at a goal that is not proved
+    and `until` holds of. Only the current folder comes before Frama-C's own headers. A goal that a fault does
     not change is proved once."""
     here = root / 'proofs' / 'overflow'
     where = ' '.join(f'-I{f}' for f in ['.', work, root / 'src', root / 'include'])
@@ -98,7 +98,7 @@ def goals(root, name, work, options, until=lambda name: False):
 
 
 class Source:
-    """A file of src, and what is said of it in overflow; `again`, where its proof is known, a share of its functions."""
+    """A file of src, and its contracts in overflow; `again`, where its proof is known, a share of its functions."""
 
     def __init__(self, root, name, again=False):
         self.root, self.name = root, name
@@ -121,7 +121,7 @@ class Source:
         return {name: reason for names, reason in found for name in re.split(r',\s+', names)}
 
     def copy(self, work, change=lambda text: text):
-        """With what holds in its loops, and a fault, in a folder that comes before src."""
+        """A copy with loop annotations, and a fault, in a folder that comes before src."""
         folder = work / self.path.parent.name
         folder.mkdir(exist_ok=True)
         text = change(self.path.read_text(encoding='utf-8'))
@@ -134,7 +134,7 @@ class Source:
 
 
 def with_loops(root, name, text):
-    """The text with what holds in its loops, in the terms of overflow/lists.h."""
+    """The text with the annotations of its loops, in the terms of overflow/lists.h."""
     path = root / 'proofs' / 'overflow' / f'{name}.acsl'
     said = path.read_text(encoding='utf-8') if path.exists() else ''
     for what, by in re.findall(r'^before (.*)\n((?:.+\n)+)', said, re.M):
@@ -154,7 +154,7 @@ def with_loops(root, name, text):
 
 
 def replace(path, text, what, by):
-    """The text with `by` in place of `what`, which is there."""
+    """The text with `by` instead of `what`, which must occur."""
     if what not in text:
         sys.exit(f'{path.name}: there is no {what!r}')
     return text.replace(what, by)
@@ -191,7 +191,7 @@ def proved_before(root):
 
 
 def record(root, names):
-    """Writes the digests of what was proved."""
+    """Writes the digests of the proved files."""
     digests = {**proved_before(root), **{name: digest(root, name) for name in names}}
     (root / 'proofs' / 'overflow' / 'proved.txt').write_text(
         '# SPDX-License-Identifier: LGPL-3.0-or-later\n# What was proved: see ../overflow.py, which writes it.\n' +
@@ -199,7 +199,7 @@ def record(root, names):
 
 
 def to_prove(root, names):
-    """Those that are not as they were when they were proved, and one in AGAIN of the others; which these are."""
+    """Names of files that changed since they were proved, and one in AGAIN of the others; the set of these others."""
     before, now = proved_before(root), {name: digest(root, name) for name in names}
     again = {name for name in names if before.get(name) == now[name] and int(now[name], 16) % AGAIN == 0}
     old = sorted(set(names) & OUTDATED)
@@ -215,7 +215,7 @@ def try_file(root, work, name, again):
     source = Source(root, name, again)
     copy = source.copy(work)
     unproved, slow = set(source.named('Unproved')), set()
-    for limit in SOON, MOST:  # the second time, what was not proved is tried again, and what it stands with is known
+    for limit in SOON, MOST:  # the second time, unproved goals are tried again; the others are in the cache
         count, left, output = goals(root, name, work, ['-wp-timeout', str(limit), '-wp-fct', ','.join(source.proved)])
         slow |= {goal for goal, seconds in re.findall(r'Goal typed_(\w+) : Valid .*\(([0-9.]+)s\)', output)
                  if float(seconds) > SLOW}
@@ -237,7 +237,7 @@ def faults_of(root, name):
 
 
 def rounds(root, name, again):
-    """The faults of a file, those of different functions together: each function is proved by itself."""
+    """The faults of a file, those of different functions together: each function is proved separately."""
     left = [fault for fault in faults_of(root, name) if fault[0] in Source(root, name, again).proved or not again]
     while left:
         first = {function: (function, old, new) for function, old, new in reversed(left)}

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Has coqchk, which shares only the kernel with coqc, check compiled theories once more.
+"""Has coqchk, which shares only the kernel with coqc, check compiled theories again.
 
 Usage: recheck.py ROOT FOLDER [--renew]   (compiles in FOLDER as compile.py does)
 
@@ -18,7 +18,7 @@ import sys
 sys.dont_write_bytecode = True
 import compile as theories  # noqa: E402
 
-AGAIN = 8  # of so many theories that were checked, one is checked again
+AGAIN = 8  # one in AGAIN theories that were checked is checked again
 REQUIRED = re.compile(r'^From Dyadel Require (?:Import |Export )?([\w\s]+)\.$', re.M)
 
 

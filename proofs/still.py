@@ -106,7 +106,7 @@ def sandwich(rng):
 
 
 def try_narrowed(both, count):
-    """What is said to be a fixpoint is one."""
+    """Each outcome reported as a fixpoint is one."""
     rng = random.Random(SEED)
     proved = tried = 0
     for kind, times in ((scattered, 3 * count), (sandwich, 4 * count)):
@@ -202,7 +202,7 @@ def try_cases(both, root):
 
 
 def try_incomplete(both):
-    """Of a pair that is left out nobody knows whether it is open."""
+    """A pair that is missing may be open or not: neither is known."""
     points = FAR + 'sqrt(300) 1\n-sqrt(500) 9\n'
     text = both.certificate(points)
     line = f'o {" ".join(statement(text)[1][0])}\n'
@@ -215,7 +215,9 @@ def try_incomplete(both):
 
 
 def try_lists(both):
-    """With a site of an open pair left out, or a box in a pair with one, the outcome is not proved; what is no list is refused."""
+    """Without a site of an open pair, or a box in a pair with one, the outcome is not proved.
+
+    A text that is not a list is refused."""
     text = both.certificate('0 0\n5 0\n0 4\n6 [5,6]\n[3,4] [2,5]\n9 9\n[20,21] 3\n')
     everybody = list(range(7))
     answers = {k: PROVED in both.with_list(text, listed(everybody[:k] + everybody[k + 1:])).stdout for k in everybody}
@@ -237,7 +239,7 @@ def try_lists(both):
 
 
 def try_handed(both):
-    """Instead of the checker a script that prints what it is given, next to a copy of the command, where it is found first."""
+    """Instead of the checker a script that prints its input, next to a copy of the command, where it is found first."""
     folder = both.folder / 'instead'
     folder.mkdir()
     script = folder / 'dyadel-proved'

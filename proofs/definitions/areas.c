@@ -71,7 +71,7 @@ static void ask_edge_area2(answer *a, const double *x) {
     say_none(a);
 }
 
-/* Two intervals on each axis, in any order of their ends; at the limits of what is allowed too. */
+/* Two intervals on each axis, in any order of their ends; at the limits of the allowed range, too. */
 static void choose_rectangles(double *x, unsigned inputs, const kind *k) {
   static const int bases[] = {0, 0, 0, 10, -30, 399, 400, -399, -400, -401, -1030};
   kind within = *k;

@@ -153,7 +153,7 @@ static void choose_small(mpz_t *z, unsigned inputs) {
     if (test_chance(&shared, zeros)) mpz_set_ui(z[q], 0);
   }
 }
-/* Flags at the end of what is drawn by choose_small. */
+/* Draws by choose_small, with a flag at the end. */
 static void choose_one_flag(mpz_t *z, unsigned inputs) {
   choose_small(z, inputs);
   mpz_set_ui(z[inputs - 1], (unsigned long)test_below(&shared, 2));

@@ -55,7 +55,7 @@ let define_boxes () =
   define "reach" 6 (fun a -> bits (reach (box_at a 0) (double a 4) (double a 5)));
   define "dyd_box_widen" 8 (fun a -> doubles (box_ends (hull (box_at a 0) (box_at a 4))));
   define "dyd_height_lower" 10 (fun a -> bits (height_lower (box_at a 0) (double a 4) (double a 5) (box_at a 6)));
-  (* Nothing is done where the denominator is 1. *)
+  (* The number stays as it is where the denominator is 1. *)
   define "dyd_scale_to_user" 5 (fun a ->
       let l = double a 4 in
       let outward k = if k mod 2 = 1 then user_upper else user_lower in

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Edges by the two triangles beside them alone, and the sum of turns round a polygon. */
+/* Edges by their two triangles alone, and the sum of turns round a polygon. */
 #include "legal/star_filter.h"
 #include "vectors.h"
 #include "voronoi/shape_filter.c" /* functions are static */
@@ -19,7 +19,7 @@ static void ask_hull_edge_near(answer *a, const double *x) {
 }
 
 /* Edges from a place near the origin to the right, one vertex on the left, one on the right; at the limits of the sizes
- * that are allowed too. What is allowed to be near is more, or about as much, as is needed. */
+ * that are allowed too. The distance allowed for near vertices is more than needed, or about the same. */
 static void choose_edge(double *x, unsigned inputs, const kind *k) {
   static const int sizes[] = {0, 0, 0, 20, -20, 44, 44, 47, 48, 49, -49, -50, -51};
   double size = ldexp(1, sizes[test_below(&shared, sizeof sizes / sizeof *sizes)]);

@@ -48,7 +48,7 @@ typedef struct function {
   void (*ask)(answer *a, const double *x);
   void (*choose)(double *x, unsigned inputs, const kind *k); /* NULL: any numbers */
   unsigned edges; /* how often it is tried to find a place where the answer changes */
-  unsigned flags; /* so many inputs, the last ones, are small integers: they stay then */
+  unsigned flags; /* number of inputs at the end that are small integers: they stay */
 } function;
 
 /* In pairs, the lower one first, but for a few; the rest as any numbers. */

@@ -42,7 +42,7 @@ let define_circles () =
       integers
         [ radius_a (z 0) (z 1) (z 2) (z 3) (z 4) (z 5) (z 6) (z 7); radius_b (z 0) (z 1) (z 2) (z 3) (z 5) (z 6) (z 7);
           Whole.mul (z 5) (z 5) ]);
-  (* Nothing is added where there is no place. *)
+  (* The sum stays as it is where no place is left. *)
   define "surd_add_square" 8 (fun a ->
       let z = whole a in
       if whole_flag a 7 then

@@ -60,7 +60,7 @@ let most = Z.shift_left Z.one (1 lsl 18)
 let precisions = [ 128; 512; 2048; 4096; 16384 ]
 let sign_precision = 4096
 
-(* What is proved of blocks. *)
+(* The results proved of blocks. *)
 type proof = {
   points : int;  (* that are in their rectangles *)
   facts : int;  (* that hold *)

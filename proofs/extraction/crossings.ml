@@ -16,7 +16,7 @@ let on_line l =
   | (_, a) :: (_, b) :: _ -> List.sort (fun (_, p) (_, q) -> Z.compare (along a b p) (along a b q)) l
   | _ -> l
 
-(* Counterclockwise, by what is turned to from the mean. *)
+(* Counterclockwise, by direction from the mean. *)
 let on_circle l =
   let n = Z.of_int (List.length l) in
   let total = List.fold_left (fun (x, y) (_, (a, b)) -> (Z.add x a, Z.add y b)) (Z.zero, Z.zero) l in

@@ -68,5 +68,5 @@ let cut v a b c =
   let ab = angle v a b and bc = angle v b c and ca = angle v c a in
   if ab >= bc && ab >= ca then cutting v 0 a b else if bc >= ca then cutting v 1 b c else cutting v 2 c a
 
-(* How many triangles may be looked at. *)
+(* Number of triangles that may be examined. *)
 let effort boxes = Z.of_int ((List.length boxes + 64) * 1024)

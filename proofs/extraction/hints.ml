@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* What the extracted checker is told besides the certificate: the unit of its integers, triangles, and the fans around
-   sites. Nothing proves this file, and nothing has to: of wrong hints the checker says no, or does without. *)
+(* Hints for the extracted checker, in addition to the certificate: the unit of its integers, triangles, and the fans
+   around sites. Nothing proves this file, and nothing has to: the checker rejects wrong hints, or ignores them. *)
 module Integers = Z
 open Checker
 module Z = Integers

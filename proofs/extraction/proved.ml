@@ -1,8 +1,8 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
 (* dyadel-proved FILE [--still LIST]: checks a certificate by the checker that is proved in Coq (theories/Checker.v,
-   CheckerFaces.v), and says what of it is proved by it and what is not, as `dyadel verify` does. LIST: sites, a line each,
-   that the caller says stay where they are: nothing narrows them; else points do. Exit status 0: everything that is stated
-   is proved; 3: accepted, but something is not proved, and named; 1: rejected. "-" is standard input. *)
+   CheckerFaces.v), and reports the parts proved by it and the others, as `dyadel verify` does. LIST: sites, a line
+   each, that the caller says stay where they are: nothing narrows them; without LIST, points do. Exit status 0: all
+   statements are proved; 3: accepted, but something is not proved, and named; 1: rejected. "-" is standard input. *)
 open Source
 open Reader
 
@@ -14,7 +14,7 @@ let whole_file name =
   close_in channel;
   Buffer.contents text
 
-(* The line of the first pair whose point is no witness; that of the first pair when the sites are at fault. *)
+(* The line of the first pair whose point is not a witness; that of the first pair when the sites are at fault. *)
 let line_at_fault c d e =
   match Checker.scaled_sites d e c.sites with
   | None -> c.first_edge - 1

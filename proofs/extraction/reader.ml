@@ -16,7 +16,7 @@ type pairs = {
   mutable unproved : int;
 }
 
-(* What is said of the Voronoi diagram. *)
+(* The statements on the Voronoi diagram. *)
 type diagram = {
   window : Checker.site;
   polygons : Checker.polygon list;
@@ -262,7 +262,7 @@ let ends s =
   s.line <- s.line + 1;
   if s.at < String.length s.text then bad s "something follows the line \"end\""
 
-(* After the line "discs": what they make of which pairs, which the checker does not know. *)
+(* After the line "discs": the statuses of pairs by the discs, which the checker does not know. *)
 let skip_discs s discs =
   skip s discs;
   match words s with

@@ -1,7 +1,7 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
 (* The text of a certificate, line by line, in words; integers in their only spelling. *)
 
-(* Number of the line, and what is wrong. *)
+(* Number of the line, and the problem. *)
 exception Bad of int * string
 
 type source = { text : string; mutable at : int; mutable line : int }

@@ -158,7 +158,7 @@ let fraction_of x q =
   in
   divide q Z.zero x Z.one
 
-(* Numerators of all x modulo q, and what is below them. *)
+(* Numerators of all x modulo q, and their denominator. *)
 let fractions_of x q =
   let half = Z.shift_right q 1 and bound = Z.sqrt (Z.shift_right q 1) in
   let below = ref Z.one in
@@ -235,10 +235,10 @@ let cofactor numbers st p m =
 let slack = 512
 let bits_needed (_, w) = slack + List.fold_left (fun n (c, _) -> max n (Z.numbits c)) 0 w
 
-(* Cube roots of what is 0 and does not reduce to 0 do so only in a power. *)
+(* Cube roots of numbers that are 0 but do not reduce to 0 do so only in a power. *)
 let choices = [ 1; 3; 9 ]
 
-(* Of one block: what was found for each polynomial. *)
+(* Of one block: the result for each polynomial. *)
 type table = { numbers : Checker.line array; found : (Checker.poly, Checker.cofactor option Lazy.t list) Hashtbl.t }
 
 let table numbers = { numbers = Array.of_list numbers; found = Hashtbl.create 100 }
