@@ -224,9 +224,9 @@ typedef struct dyd_hull {
   dyd_pair_list pairs;
 } dyd_hull;
 DYD_API void dyd_hull_clear(dyd_hull *h);
-/* Exact [HST-1] [HST-2]. *out is replaced. pairs: false leaves out->pairs empty, however many there are. DYD_CAPPED:
- * more pairs than the cap of pd; `pairs` is empty then, the rest is complete. O(h log h + pairs), h the sites on the
- * skeleton's hull or in unbounded undecided faces. */
+/* Exact [HST-1] [HST-2]. *out is replaced. If pairs is false, out->pairs is empty, whatever the number of pairs.
+ * DYD_CAPPED: more pairs than the cap of pd; `pairs` is empty then, the rest is complete. O(h log h + pairs), h the
+ * sites on the skeleton's hull or in unbounded undecided faces. */
 DYD_API dyd_status dyd_delaunay_partial_hull(dyd_hull *out, const dyd_delaunay *pd, bool pairs);
 
 #ifdef __cplusplus

@@ -312,7 +312,7 @@ DYD_API dyd_status dyd_engine_bounds(dyd_dyadic *area, dyd_dyadic *hausdorff, co
 /* Adds site i, to be brought to 2^-bits. Where that was requested before, and for DYD_BITS_NEXT, it is the next
  * step of the options (start_bits, step_bits): a site that is wanted always narrows. bits are cut to max_bits. Of
  * several calls for one site the finest counts. Site dyd_engine_count(e) + k is guest k of the question. A site that is
- * fixed, final, or was requested at max_bits before is left out without an error. Returns DYD_OK; DYD_E_ARG when there
+ * fixed, final, or was requested at max_bits before is skipped without an error. Returns DYD_OK; DYD_E_ARG when there
  * is no site i, DYD_E_NOMEM: then dyd_engine_ask ends with this error, whatever the question returns. O(log points). */
 DYD_API dyd_status dyd_wants_add(dyd_wants *wants, uint32_t i, int64_t bits);
 /* Returns the number of points wanted. */

@@ -37,7 +37,7 @@ DYD_API void dyd_graph_list_clear(dyd_graph_list *l);
  * graphs of rectangles. The spanning tree goes by the least and the largest length of each pair, and discs by what
  * squares show and by bounds in doubles [GRD-1]: an edge that is listed may be one for no choice; for exact points
  * there is none such. cancel: as in dyd_delaunay_options, may be NULL. Returns DYD_OK; DYD_E_ARG for an unknown graph,
- * and with pairs for a site that is no square; DYD_CAPPED when pd is; DYD_CANCELLED; DYD_E_NOMEM. O(pairs log pairs)
+ * and with pairs for a site that is not a square; DYD_CAPPED when pd is; DYD_CANCELLED; DYD_E_NOMEM. O(pairs log pairs)
  * where rectangles are small; in crowds of d rectangles up to d^3 for a pair. */
 DYD_API dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, const dyd_pair_list *pairs,
                                    dyd_graph graph, const volatile int *cancel, dyd_error *err);

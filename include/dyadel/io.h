@@ -259,7 +259,7 @@ DYD_API const char *dyd_layer_name(dyd_content *layer, bool *large, dyd_content 
 /* Finds the content of a layer by its name ("points"); false when there is none. */
 DYD_API bool dyd_layer_from_name(dyd_content *out, dyd_content of, const char *name);
 /* Returns true if the format can hold the content; discs: of statuses of discs, which decide less than some layers and
- * formats state. Otherwise dyd_write returns DYD_E_ARG with a message that names what can. */
+ * formats state. Otherwise dyd_write returns DYD_E_ARG with a message that names the formats that can. */
 DYD_API bool dyd_format_holds(dyd_format format, dyd_content content, bool discs);
 
 /* The result of dyd_engine_nearest or dyd_sphere_nearest; all borrowed. Begun with DYD_SIZED. */

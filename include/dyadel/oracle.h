@@ -58,9 +58,9 @@ typedef struct dyd_oracle_options {
 
 /* Starts the programs, waits until each has reported how many points there are, and sets *out, begun with DYD_SIZED, to
  * a source of points 0 .. *points - 1, for dyd_engine_add_source. Its release ends the programs: their inputs end, and
- * those that run a second later are killed. options may be NULL. DYD_E_ARG for options out of range, DYD_E_STREAM when
- * a program cannot be started or does not begin as it should, DYD_E_NOMEM, DYD_CANCELLED; *err (may be NULL) says more,
- * outputs are unchanged, and nothing is left running. */
+ * programs that run a second later are killed. options may be NULL. DYD_E_ARG for options out of range, DYD_E_STREAM
+ * when a program cannot be started or does not begin as it should, DYD_E_NOMEM, DYD_CANCELLED; *err (may be NULL) says
+ * more, outputs are unchanged, and nothing is left running. */
 DYD_API dyd_status dyd_oracle_source(dyd_source *out, size_t *points, const char *command,
                                      const dyd_oracle_options *options, dyd_error *err);
 

@@ -183,8 +183,7 @@ static int64_t probe_step(int64_t b, int64_t most) {
   return dyd_bits_raised(b, b < 16 ? 16 : b < DEAR ? b : b / 2, most);
 }
 
-/* Sends the probes of a quad that can continue: for what was wanted at first, then for more. How many there are.
- */
+/* Sends the probes of a quad that can continue: first for the bits wanted, then for more. Returns their number. */
 static size_t probe_send_quad(dyd_wants *out, dyd_wants *held, const dyd_quad_sites *q) {
   size_t sent = 0;
   for (int k = 0; k < 4; k++) {

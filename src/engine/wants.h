@@ -49,7 +49,7 @@ bool dyd_wants_can_narrow(dyd_wants *p, const dyd_refinable *point);
 void dyd_wants_mark(dyd_wants *p, const dyd_refinable *point, int64_t bits, dyd_reason reason, uint32_t i, uint32_t j);
 /* The same for a reason that names no pair. */
 void dyd_wants_mark_alone(dyd_wants *p, const dyd_refinable *point, int64_t bits, dyd_reason reason);
-/* What is wanted of a point; NULL: nothing. Borrowed until the list changes. */
+/* Returns the want of a point, NULL if it has none. Borrowed until the list changes. */
 dyd_want *dyd_wants_find(const dyd_wants *p, const dyd_refinable *point);
 /* The points never asked, for the first stage. */
 void dyd_wants_first(dyd_wants *p);

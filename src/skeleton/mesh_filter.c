@@ -459,7 +459,7 @@ bool dyd_point_edge_is_certain(dyd_tally *tally, const dyd_mesh *m, dyd_half_edg
   return hull || dyd_mesh_beyond(tally, m, h) < 0;
 }
 
-/* The grid costs O(n), so it is made when the filters have said that they do not know. It may tell that integers are
+/* The grid costs O(n), so it is made when the filters have said that they do not know. It may find that integers are
  * small. */
 int dyd_build_orient_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
   bool tried = m->fixed || m->no_fixed;

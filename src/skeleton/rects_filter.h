@@ -111,7 +111,7 @@ static inline bool dyd_corners_block(const double far[4], const double near[4]) 
   return far[0] < near[0] && far[1] < near[1] && far[2] < near[2] && far[3] < near[3];
 }
 
-/* A part of the plane, cut `depth` times from the whole, and what is left for it of the caller's lists: candidates
+/* A part of the plane, cut `depth` times from the whole, and its rest of the caller's lists: candidates
  * first .. first + count, and pairs of them. The lists of a part lie behind those of the part around it. level: the
  * caller's. */
 typedef struct dyd_plane_part {

@@ -39,7 +39,7 @@ void dyd_scale_to_user(dyd_bbox *box, const dyd_scale_set *s);
 /* A site has at most this many critical circles with two others [CRIT-1]. */
 enum { DYD_CIRCLES = 8 };
 
-/* Tells whether sites i and j are possible neighbours for regions in their rectangles. false: it does not know. For
+/* Decides if sites i and j are possible neighbours for regions in their rectangles; returns false if it cannot. For
  * runs of one thread. */
 typedef struct dyd_decider {
   bool (*tell)(bool *possible, void *context, uint32_t i, uint32_t j);
@@ -52,7 +52,7 @@ typedef struct dyd_run {
   unsigned threads;           /* for passes over everything */
   bool keep_cut;              /* faces that cancelling leaves open count as met by the cap */
   dyd_error *err;             /* may be NULL */
-  const dyd_decider *decider; /* asked before pairs beside the edges of the skeleton are decided; may be NULL */
+  const dyd_decider *decider; /* asked first for pairs that are not edges of the skeleton; may be NULL */
 } dyd_run;
 
 /* Of one thread. */

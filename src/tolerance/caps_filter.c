@@ -6,8 +6,8 @@
  * less than 2 size off + 2^-50 size^2, w and tau by the errors of the factors of their products, c = |w|^2 - tau^2 like
  * n. An end u = (tau w + turn s w') / ww, s = sqrt(c), has length 1; s is off by at most off_c / s, the numerators by
  * less than 3 size off + size off_c / s + 2^-50 size^2 with the size of w and tau, ww like n. Bounds are wider than
- * their derivation by a factor of MORE, which covers what they are rounded by. Squares of what is plain do not
- * overflow, and what underflows there is below all bounds. */
+ * their derivation by a factor of MORE, which covers their own rounding. Squares of plain numbers do not
+ * overflow, and results that underflow there are below all bounds. */
 #include "tolerance/discs.h"
 
 #include <math.h>

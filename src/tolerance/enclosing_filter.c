@@ -60,8 +60,8 @@ static double widened_up(double t, double off) {
   return dyd_upper(t + off);
 }
 
-/* Rows of the true points; those that a status leaves open, and births surely above up_to, go. *least: the least lo of
- * the centres among rows other than ties. */
+/* Widens rows to those of the true points; removes rows of indeterminate pairs, and births certainly above up_to.
+ * *least: the least lo of the centres among rows other than ties. */
 static void rows_widen(double *least, dyd_tolerance *t, double off, const dyd_delaunay *pd, double up_to) {
   size_t kept = 0;
   for (size_t k = 0; k < t->rows; k++) {

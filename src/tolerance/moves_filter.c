@@ -330,7 +330,7 @@ static bool move_meet(void *context, uint32_t v) {
   return l->added < DYD_MOVES_MOST_ADDED;
 }
 
-/* What is beyond both, and what holds all roundings of where c and the sites are. */
+/* Sets the reach, the larger one of both, and a radius that covers all roundings of the places of c and the sites. */
 static bool move_look_begin(move_look *l, dyd_moves *m, double t) {
   dyd_dd_bounded of[2] = {dyd_move_reach(m, &m->site[0], t, m->way), dyd_move_reach(m, &m->site[1], t, m->way)};
   dyd_dd_bounded more = dyd_dd_plus(of[1], of[0], -1);

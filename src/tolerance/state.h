@@ -120,14 +120,14 @@ static inline dyd_tolerance_row dyd_row_of(const dyd_tolerance *t, uint32_t v, u
  * After dyd_near_index. */
 typedef dyd_status dyd_row_work(bool *late, dyd_tolerance_row *row, void *user);
 dyd_status dyd_rows_rework(dyd_tolerance *t, size_t first, dyd_row_work *work, void *user);
-/* births_filter.c: the row of a pair beside the edges, as exact numbers make it; or *late: it is born above up_to,
+/* births_filter.c: the row of a pair that is not an edge, as exact numbers make it; or *late: it is born above up_to,
  * which is rounded up. false: not certain [FLT-BIRTH]. After dyd_near_index; spare: of the calling thread. */
 bool dyd_filter_birth(dyd_tolerance_row *row, bool *late, const dyd_tolerance *t, uint32_t i, uint32_t j, double up_to,
                       dyd_others *spare);
 /* moves_filter.c: the row of a death of unmoved weights, 1 each, in discs, becomes that of t's weights and metric
  * [TOL-11]; false: not certain, and unchanged. spare: of the calling thread. */
 bool dyd_filter_moved_death(dyd_tolerance_row *row, const dyd_tolerance *t, dyd_others *spare);
-/* The row of a pair beside the edges, or *late, as dyd_filter_birth, but of t's weights and metric [TOL-12]. */
+/* The row of a pair that is not an edge, or *late, as dyd_filter_birth, but of t's weights and metric [TOL-12]. */
 bool dyd_filter_moved_birth(dyd_tolerance_row *row, bool *late, const dyd_tolerance *t, uint32_t i, uint32_t j,
                             double up_to, dyd_others *spare);
 /* After work that was cancelled: removes marked rows, and counts the pairs without one. */

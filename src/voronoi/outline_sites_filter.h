@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The sites of a cell in doubles, points of arcs, and what is taken from them. */
+/* The sites of a cell in doubles, points of arcs, and the parts taken from them. */
 #ifndef DYD_VORONOI_OUTLINE_SITES_FILTER_H
 #define DYD_VORONOI_OUTLINE_SITES_FILTER_H
 

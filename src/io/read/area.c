@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Areas in files: polygons as well-known text, which may stand in a table, or as GeoJSON. All polygons of the file
+/* Areas in files: polygons as well-known text, also in a table, or as GeoJSON. All polygons of the file
  * together are one area. */
 #include "base/alloc.h"
 #include "base/error.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What the names of columns say: which hold longitude and latitude, in which order, and in which unit; and cells that
- * are no degrees by themselves, as a column beside them says the rest. */
+/* Reads the names of columns: which hold longitude and latitude, in which order, and in which unit; and cells that
+ * are not degrees alone, because another column has the rest. */
 #include "base/error.h"
 #include "dyadic/numeral.h"
 #include "io/read/csv.h"
