@@ -112,7 +112,7 @@ const char *dyd_version(void) {
   return DYD_VERSION;
 }
 
-dyd_status dyd_fail_room(dyd_error *err, const dyd_memory *memory) {
+dyd_status dyd_fail_memory(dyd_error *err, const dyd_memory *memory) {
   return dyd_fail(
       err, DYD_E_NOMEM,
       "%s would bring memory to about %llu bytes, and `max_bytes` leaves %llu; raise it, or ask for less: fewer "

@@ -25,6 +25,6 @@ dyd_status dyd_fail_null(dyd_error *err);
 /* DYD_E_NOMEM with its standard sentence. */
 dyd_status dyd_fail_nomem(dyd_error *err);
 /* DYD_E_NOMEM with what the room, which has refused something, was asked for. */
-dyd_status dyd_fail_room(dyd_error *err, const dyd_memory *memory);
+dyd_status dyd_fail_memory(dyd_error *err, const dyd_memory *memory);
 
 #endif

@@ -537,7 +537,7 @@ static dyd_status finish(dyd_delaunay *pd, dyd_status st, dyd_error *err) {
   pd->options.narrows = NULL;
   pd->decider = NULL;
   if (pd->memory.peak > pd->counters.bytes_most) pd->counters.bytes_most = pd->memory.peak;
-  if (st == DYD_E_NOMEM && pd->memory.refused) return dyd_fail_room(err, &pd->memory);
+  if (st == DYD_E_NOMEM && pd->memory.refused) return dyd_fail_memory(err, &pd->memory);
   if (st == DYD_OK) return dyd_delaunay_is_capped(pd) ? DYD_CAPPED : DYD_OK;
   return dyd_fail(err, st, "%s", dyd_status_text(st));
 }

@@ -10,7 +10,7 @@
 DYD_OWNERS(dyd_delaunay)
 
 /* For what a call makes of a result: the room that it leaves of what its last call was allowed. */
-dyd_memory dyd_delaunay_room(const dyd_delaunay *pd);
+dyd_memory dyd_delaunay_memory_left(const dyd_delaunay *pd);
 /* From now on that is so much; 0: no bound. */
 void dyd_delaunay_allow(dyd_delaunay *pd, uint64_t max_bytes);
 /* Returns true if a bound is set. Estimates that take a while are made only then. */

@@ -383,7 +383,7 @@ dyd_status dyd_delaunay_witness(dyd_point *out, const dyd_delaunay *pd, uint32_t
 
 /* ---- memory ---- */
 
-dyd_memory dyd_delaunay_room(const dyd_delaunay *pd) {
+dyd_memory dyd_delaunay_memory_left(const dyd_delaunay *pd) {
   uint64_t most = pd->options.max_bytes;
   return (dyd_memory){.most = most, .held = most ? dyd_delaunay_memory(pd) : 0};
 }
@@ -397,8 +397,8 @@ bool dyd_delaunay_is_bounded(const dyd_delaunay *pd) {
 }
 
 dyd_status dyd_delaunay_grant(const dyd_delaunay *pd, uint64_t bytes, const char *what, dyd_error *err) {
-  dyd_memory memory = dyd_delaunay_room(pd);
-  return dyd_memory_has(&memory, bytes, what) ? DYD_OK : dyd_fail_room(err, &memory);
+  dyd_memory memory = dyd_delaunay_memory_left(pd);
+  return dyd_memory_has(&memory, bytes, what) ? DYD_OK : dyd_fail_memory(err, &memory);
 }
 
 dyd_pair_status dyd_least_bounding(const dyd_delaunay *pd) {

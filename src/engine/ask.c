@@ -794,7 +794,7 @@ dyd_status dyd_ask(dyd_outcome *outcome, dyd_budget *spent, dyd_engine *e, const
   if (st == DYD_OK) st = dyd_policy_start(&policy, &a.o, &a.err);
   if (st == DYD_OK) st = ask_run(&a);
   dyd_policy_free(policy);
-  if (st == DYD_E_NOMEM && a.memory.refused) dyd_fail_room(&a.err, &a.memory);
+  if (st == DYD_E_NOMEM && a.memory.refused) dyd_fail_memory(&a.err, &a.memory);
   if (st != DYD_OK && !a.err.message[0]) dyd_fail(&a.err, st, "%s", dyd_status_text(st));
   if (st != DYD_OK) a.err.code = st;
   if (st == DYD_OK && a.spent != DYD_BUDGET_PAIRS) dyd_error_clear(&a.err);

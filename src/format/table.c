@@ -420,14 +420,14 @@ static dyd_status make_diagram(const diagram_arrays *arrays, dyd_output *to, dyd
     return dyd_fail(err, DYD_CAPPED, "the cap on stored pairs was met, so neighbours are missing; raise `max_pairs`");
   st = grant_output(r.pd, to, true, NULL, DYD_LEGAL, err);
   if (st != DYD_OK) return st;
-  dyd_memory memory = dyd_delaunay_room(r.pd);
+  dyd_memory memory = dyd_delaunay_memory_left(r.pd);
   dyd_voronoi_bounds_init(&bounds);
   o->bounds = &bounds;
   if (!o->cut) o->cut = &cut;
   DYD_SCOPED(dyd_diagram) d;
   st = dyd_diagram_init(&d, to, o, has_vertices(to->content, to->format), &memory, err);
   if (st == DYD_OK) st = tell_fineness(arrays ? find_arrays(arrays, &d, err) : write_what(to, &d, err), &d, err);
-  if (st == DYD_E_NOMEM && memory.refused) dyd_fail_room(err, &memory);
+  if (st == DYD_E_NOMEM && memory.refused) dyd_fail_memory(err, &memory);
   if (st == DYD_OK && wanted) {
     dyd_dyadic_swap(&wanted->area, &bounds.area);
     dyd_dyadic_swap(&wanted->hausdorff, &bounds.hausdorff);

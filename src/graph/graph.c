@@ -564,7 +564,7 @@ dyd_status dyd_graph_of_discs(dyd_graph_list *out, const dyd_delaunay *pd, const
                       .discs = discs,
                       .ball = ball,
                       .cancel = cancel,
-                      .memory = dyd_delaunay_room(pd)};
+                      .memory = dyd_delaunay_memory_left(pd)};
   w.n = dyd_sites_count(w.sites);
   /* A tied pair is longer than those between on the rim [GRP-1] [GRP-2]; it may be a diameter of its circle. */
   w.least = graph == DYD_GRAPH_GABRIEL && !dyd_is_line(pd) ? DYD_TIE : dyd_least_bounding_true(pd);
@@ -574,7 +574,7 @@ dyd_status dyd_graph_of_discs(dyd_graph_list *out, const dyd_delaunay *pd, const
   graph_work_clear(&w);
   if (st != DYD_OK) {
     dyd_graph_list_clear(&w.out);
-    if (st == DYD_E_NOMEM && w.memory.refused) return dyd_fail_room(err, &w.memory);
+    if (st == DYD_E_NOMEM && w.memory.refused) return dyd_fail_memory(err, &w.memory);
     return dyd_fail(err, st, "%s", dyd_status_text(st));
   }
   dyd_graph_list_clear(out);

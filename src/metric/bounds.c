@@ -307,7 +307,7 @@ dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, co
                           .most = HUGE_VAL,
                           .exact = true,
                           .proved = dyd_has_proved_tie(pd),
-                          .memory = dyd_delaunay_room(pd)};
+                          .memory = dyd_delaunay_memory_left(pd)};
   mpfr_inits2(sum_precision(window, bits), s->inner, s->term, (mpfr_ptr)0);
   mpfr_set_zero(s->inner, 1);
   dyd_dyadic_init(&s->area2);

@@ -220,7 +220,7 @@ dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_su
   dyd_survey *s = calloc(1, sizeof *s);
   if (!s) return dyd_fail_nomem(err);
   mpq_init(s->scale);
-  s->memory = dyd_delaunay_room(pd);
+  s->memory = dyd_delaunay_memory_left(pd);
   s->threads = pd->options.threads;
   s->err = err;
   dyd_status st = dyd_abi_take(&s->options, sizeof s->options, options, "dyd_survey_options", err);
@@ -237,7 +237,7 @@ dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_su
     s->result.open = s->target.count;
     return dyd_survey_tell_cut(s, err);
   }
-  if (st == DYD_E_NOMEM && s->memory.refused) dyd_fail_room(err, &s->memory);
+  if (st == DYD_E_NOMEM && s->memory.refused) dyd_fail_memory(err, &s->memory);
   dyd_survey_free(s);
   return err && err->code == st ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
 }

@@ -145,14 +145,14 @@ dyd_status dyd_tolerance_new(dyd_tolerance **out, const dyd_delaunay *pd, const 
   if (!t) return st == DYD_OK ? dyd_fail_nomem(err) : st;
   t->pd = pd;
   t->sk = &pd->sk;
-  t->memory = dyd_delaunay_room(pd);
+  t->memory = dyd_delaunay_memory_left(pd);
   dyd_lines_init(&t->lines);
   dyd_summit_init(&t->summit);
   st = dyd_abi_take(&t->options, sizeof t->options, options, "dyd_tolerance_options", err);
   if (st == DYD_OK) st = check_points(t, err);
   if (st == DYD_OK) st = tolerance_work(t, err);
   t->options.up_to = NULL;
-  if (st == DYD_E_NOMEM && t->memory.refused) dyd_fail_room(err, &t->memory);
+  if (st == DYD_E_NOMEM && t->memory.refused) dyd_fail_memory(err, &t->memory);
   if (st == DYD_OK || st == DYD_CANCELLED) {
     *out = t;
     t->result.struct_size = sizeof t->result;

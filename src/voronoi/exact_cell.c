@@ -197,7 +197,7 @@ dyd_status dyd_cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i
 dyd_status dyd_voronoi_cell(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, dyd_cell_bound bound,
                             const dyd_rect *window) {
   if (!pd) return DYD_E_ARG;
-  dyd_memory memory = dyd_delaunay_room(pd);
+  dyd_memory memory = dyd_delaunay_memory_left(pd);
   return dyd_cell_region(out, pd, i, bound == DYD_CELL_POSSIBLE, false, window, &memory, NULL);
 }
 

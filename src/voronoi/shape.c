@@ -655,7 +655,7 @@ dyd_status dyd_voronoi_polygons(dyd_polygon_list *out, const dyd_delaunay *pd, u
   dyd_status st = dyd_window_init(&w, window);
   if (st != DYD_OK) return st;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
-  dyd_memory memory = dyd_delaunay_room(pd);
+  dyd_memory memory = dyd_delaunay_memory_left(pd);
   DYD_SCOPED(dyd_shape) s = {0};
   dyd_polygon_list l = {0};
   w.memory = &memory;

@@ -325,7 +325,7 @@ static bool intake_has_room(const intake *in, dyd_error *err) {
   uint64_t bytes = in->stage.bytes + 2 * dyd_labels_bytes(&in->labels) + dyd_places_bytes(&in->places) +
                    dyd_places_bytes(&in->ids) + in->cells_used + in->sightings * sizeof *in->seen +
                    (in->sigma ? in->stage.count * sizeof *in->sigma : 0);
-  return dyd_memory_has(&memory, bytes, "reading the points") || (dyd_fail_room(err, &memory), false);
+  return dyd_memory_has(&memory, bytes, "reading the points") || (dyd_fail_memory(err, &memory), false);
 }
 
 /* ---- fields ---- */
