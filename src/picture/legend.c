@@ -371,8 +371,8 @@ void dyd_legend_crowd(dyd_legend *l, const dyd_sites_shown *m) {
   if (!found || !((box[1] - box[0]) * (box[3] - box[2]) < 0.08 * area)) return;
   for (size_t i = 0; i < m->count; i++) {
     double b[4];
-    if (!m->box(b, m->context, i)) continue;
-    seen += dyd_view_sees(v, b);
+    if (!m->box(b, m->context, i) || !dyd_view_sees(v, b)) continue;
+    seen++;
     inside += is_in(box, b);
   }
   snprintf(text, sizeof text, "%zu of these %zu points are in a small part of the picture: window %s,%s,%s,%s shows it",

@@ -169,6 +169,9 @@ def test_outliers():
         near = picture(command, crowd + '500 300\n', '--window=' + hint[2])
         drawn = [p for p in svg.paths(near) if p.look.get('id', '').startswith('point-')]
         assert len(drawn) >= int(hint[1]) and 'small part' not in ' '.join(svg.words(near)), len(drawn)
+        half = ' '.join(svg.words(picture(command, crowd + '500 300\n', '--window=0.2,501,-1,301')))  # the hint goes beyond it
+        hint = re.search(r'(\d+) of these (\d+) points are in a small part', half)
+        assert hint and int(hint[1]) < int(hint[2]) < 90, half
 
 
 def test_crowds_show_density():
