@@ -203,7 +203,7 @@ static void ask_add_square(answer *a, mpz_t *z) {
 }
 /* z: a, b, c, d, lo2, hi2; is there a bound below, above? */
 static void ask_within_slab(answer *a, mpz_t *z) {
-  search q = {.circle = {.c = {*z[2]}, .d = {*z[3]}}};
+  circle_search q = {.circle = {.c = {*z[2]}, .d = {*z[3]}}};
   dyd_slab s = {.lo2 = mpz_sgn(z[6]) ? z[4] : NULL, .hi2 = mpz_sgn(z[7]) ? z[5] : NULL};
   mpz_inits(q.s, q.t, NULL);
   say_integer(a, within_slab(&q, z[0], z[1], &s));

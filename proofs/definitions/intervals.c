@@ -106,19 +106,19 @@ static void say_roots(answer *a, roots found, int k) {
 }
 
 static void ask_two_points(answer *a, const double *x) {
-  feature f = {{true, true}, {iv_at(x, 0), iv_at(x, 1)}}, g = {{true, true}, {iv_at(x, 2), iv_at(x, 3)}};
+  feature_iv f = {{true, true}, {iv_at(x, 0), iv_at(x, 1)}}, g = {{true, true}, {iv_at(x, 2), iv_at(x, 3)}};
   say_roots(a, iv_two_points(&f, &g), 0);
 }
 /* x[6]: the axis across the line */
 static void ask_point_and_line(answer *a, const double *x) {
   int k = x[6] > 0;
-  feature point = {{true, true}, {iv_at(x, k), iv_at(x, 1 - k)}};
-  feature line = {{k == 0, k == 1}, {iv_at(x, 2), iv_at(x, 2)}};
+  feature_iv point = {{true, true}, {iv_at(x, k), iv_at(x, 1 - k)}};
+  feature_iv line = {{k == 0, k == 1}, {iv_at(x, 2), iv_at(x, 2)}};
   say_roots(a, iv_point_and_line(&point, &line), k);
 }
 static void ask_parallel_lines(answer *a, const double *x) {
   int k = x[4] > 0;
-  feature f = {{k == 0, k == 1}, {iv_at(x, 0), iv_at(x, 0)}}, g = {{k == 0, k == 1}, {iv_at(x, 1), iv_at(x, 1)}};
+  feature_iv f = {{k == 0, k == 1}, {iv_at(x, 0), iv_at(x, 0)}}, g = {{k == 0, k == 1}, {iv_at(x, 1), iv_at(x, 1)}};
   say_roots(a, iv_parallel_lines(&f, &g, k), k);
 }
 static void ask_crossing_lines(answer *a, const double *x) {
