@@ -44,7 +44,7 @@ typedef struct grid_site {
 } grid_site;
 
 /* The lists of sites of nested boxes lie one behind the other in list[]. */
-typedef struct grid_search {
+typedef struct search {
   const dyd_cert_sites *sites;
   const dyd_exact *bound;
   grid_site *item;
@@ -58,11 +58,11 @@ typedef struct grid_search {
   dyd_status st;
   mpz_t root, rest;
   dyd_cert_fraction gap, part;
-} grid_search;
+} search;
 
 /* ---- the grid ---- */
 
-static int64_t place_end(bool *endless, grid_search *s, const dyd_exact *x, mpz_srcptr den, int axis, bool up) {
+static int64_t place_end(bool *endless, search *s, const dyd_exact *x, mpz_srcptr den, int axis, bool up) {
   (up ? dyd_exact_ceil : dyd_exact_floor)(s->root, x, den, s->unit);
   mpz_sub(s->root, s->root, s->origin[axis]);
   if (mpz_sizeinbase(s->root, 2) <= FAR_BITS) return mpz_get_si(s->root);
@@ -88,7 +88,7 @@ static void root_above(uint64_t *man, int64_t *exp, const dyd_cert_fraction *f) 
   mpz_clear(t);
 }
 
-static void find_diameter(grid_search *s, grid_site *g) {
+static void find_diameter(search *s, grid_site *g) {
   const dyd_cert_side *side = s->sites->site[g->site].side;
   for (int axis = 0; axis < 2; axis++) {
     dyd_cert_fraction *f = axis ? &s->part : &s->gap;
@@ -100,7 +100,7 @@ static void find_diameter(grid_search *s, grid_site *g) {
   root_above(&g->diameter, &g->diameter_exp, &s->gap);
 }
 
-static void place_site(grid_search *s, uint32_t v) {
+static void place_site(search *s, uint32_t v) {
   grid_site *g = &s->item[s->count++];
   *g = (grid_site){.site = v};
   for (int k = 0; k < 4; k++) {
@@ -111,7 +111,7 @@ static void place_site(grid_search *s, uint32_t v) {
 }
 
 /* The grid, and the window on it. */
-static void make_grid(grid_box *window, grid_search *s, const dyd_cert_window *w) {
+static void make_grid(grid_box *window, search *s, const dyd_cert_window *w) {
   bool endless = false;
   dyd_exact width;
   dyd_exact_init(&width);
@@ -155,7 +155,7 @@ static void mpz_set_area(mpz_ptr out, dyd_cert_area v) {
 /* ---- pairs ---- */
 
 /* s->gap = the squared distance of two rectangles. */
-static void find_site_gap(grid_search *s, const grid_site *a, const grid_site *b) {
+static void find_site_gap(search *s, const grid_site *a, const grid_site *b) {
   for (int axis = 0; axis < 2; axis++) {
     const dyd_cert_side *x = &s->sites->site[a->site].side[axis], *y = &s->sites->site[b->site].side[axis];
     dyd_cert_fraction *f = axis ? &s->part : &s->gap;
@@ -168,14 +168,14 @@ static void find_site_gap(grid_search *s, const grid_site *a, const grid_site *b
   dyd_cert_fraction_add(&s->gap, &s->gap, &s->part);
 }
 
-static bool are_disjoint(grid_search *s, const grid_site *a, const grid_site *b) {
+static bool are_disjoint(search *s, const grid_site *a, const grid_site *b) {
   if (near_on_grid(&a->box, &b->box) > 0) return true;
   find_site_gap(s, a, b);
   return dyd_exact_sgn(&s->gap.num) > 0;
 }
 
 /* s->root 2^*exp = a lower bound of the distance of two rectangles; exact ends where the grid is coarse for it. */
-static void site_gap_below(int64_t *exp, grid_search *s, const grid_site *a, const grid_site *b) {
+static void site_gap_below(int64_t *exp, search *s, const grid_site *a, const grid_site *b) {
   dyd_cert_area gap = near_on_grid(&a->box, &b->box);
   if (gap >> 48) {
     mpz_set_area(s->root, gap);
@@ -209,7 +209,7 @@ static void add_diameters(mpz_ptr out, int64_t *exp, const grid_site *a, const g
 }
 
 /* Is (diam_a + diam_b) (far_a + far_b) <= 2 bound dist, the rectangles being disjoint? */
-static bool is_near_bisector(grid_search *s, const grid_site *a, const grid_site *b, uint64_t far_a, uint64_t far_b) {
+static bool is_near_bisector(search *s, const grid_site *a, const grid_site *b, uint64_t far_a, uint64_t far_b) {
   dyd_exact left, right;
   if (a->diameter == 0 && b->diameter == 0) return are_disjoint(s, a, b);
   dyd_exact_init(&left);
@@ -229,7 +229,7 @@ static bool is_near_bisector(grid_search *s, const grid_site *a, const grid_site
 }
 
 /* Is some site of the list, disjoint from a, within the bound of all points of q? */
-static bool is_near_site(grid_search *s, const grid_box *q, const grid_site *a, const uint32_t *list, size_t count) {
+static bool is_near_site(search *s, const grid_box *q, const grid_site *a, const uint32_t *list, size_t count) {
   dyd_cert_area most = (dyd_cert_area)s->most * s->most;
   for (size_t k = 0; k < count; k++)
     if (far_on_grid(q, &s->item[list[k]]) <= most && are_disjoint(s, a, &s->item[list[k]])) return true;
@@ -237,7 +237,7 @@ static bool is_near_site(grid_search *s, const grid_box *q, const grid_site *a, 
 }
 
 /* The root of far_on_grid, rounded up. The site is not endless. */
-static uint64_t far_root(grid_search *s, const grid_box *q, const grid_site *g) {
+static uint64_t far_root(search *s, const grid_box *q, const grid_site *g) {
   mpz_set_area(s->root, far_on_grid(q, g));
   mpz_sqrtrem(s->root, s->rest, s->root);
   return mpz_get_ui(s->root) + (mpz_sgn(s->rest) != 0);
@@ -245,7 +245,7 @@ static uint64_t far_root(grid_search *s, const grid_box *q, const grid_site *g) 
 
 /* Are there two sites of the list, disjoint from each other, within the bound of all points of q? Tried with the first
  * few of those within it. */
-static bool has_two_near_sites(grid_search *s, const grid_box *q, const uint32_t *list, size_t count) {
+static bool has_two_near_sites(search *s, const grid_box *q, const uint32_t *list, size_t count) {
   dyd_cert_area most = (dyd_cert_area)s->most * s->most;
   int tried = 0;
   for (size_t k = 0; k < count && tried < FEW; k++) {
@@ -258,7 +258,7 @@ static bool has_two_near_sites(grid_search *s, const grid_box *q, const uint32_t
 }
 
 /* Is every undetermined point of q near the diagram? S is the first `count` of the list, 2 .. MANY. */
-static bool box_pairs_hold(grid_search *s, const grid_box *q, const uint32_t *list, size_t count, size_t all) {
+static bool box_pairs_hold(search *s, const grid_box *q, const uint32_t *list, size_t count, size_t all) {
   uint64_t far[MANY];
   bool near[MANY];
   for (size_t k = 0; k < count; k++) {
@@ -282,7 +282,7 @@ static bool box_pairs_hold(grid_search *s, const grid_box *q, const uint32_t *li
 
 /* The sites of list[from .. from+count) of use for q, put behind them: S first, then those within the bound of q.
  * Returns how many; *possible: of S. */
-static size_t box_keep(size_t *possible, grid_search *s, const grid_box *q, size_t from, size_t count) {
+static size_t box_keep(size_t *possible, search *s, const grid_box *q, size_t from, size_t count) {
   dyd_cert_area least = ~(dyd_cert_area)0, most = (dyd_cert_area)s->most * s->most;
   size_t kept = 0;
   s->effort += count;
@@ -315,7 +315,7 @@ static bool is_worth_a_look(size_t count, size_t before) {
 }
 
 /* around: the sites of the box around q are list[from .. from+around), before of them are of its S. */
-static bool box_is_covered(grid_search *s, const grid_box *q, size_t from, size_t around, size_t before) {
+static bool box_is_covered(search *s, const grid_box *q, size_t from, size_t around, size_t before) {
   size_t possible, count = box_keep(&possible, s, q, from, around);
   if (s->st != DYD_OK || s->effort > s->effort_most) return false;
   from += around;
@@ -338,7 +338,7 @@ typedef struct extent {
   mpz_srcptr den[4];
 } extent;
 
-static void extent_widen(extent *e, grid_search *s, const dyd_cert_side *side) {
+static void extent_widen(extent *e, search *s, const dyd_cert_side *side) {
   const dyd_exact **best[4] = {&e->lo, &e->hi, &e->most_lo, &e->least_hi};
   for (int m = 0; m < 4; m++) {
     const dyd_exact *end = m % 2 ? dyd_cert_high(side) : &side->lo;
@@ -353,7 +353,7 @@ static void extent_widen(extent *e, grid_search *s, const dyd_cert_side *side) {
 }
 
 /* Does the bound reach across the window and all rectangles, two of which are disjoint? */
-static bool spans_all(grid_search *s, const dyd_cert_window *w) {
+static bool spans_all(search *s, const dyd_cert_window *w) {
   bool disjoint = false;
   dyd_cert_fraction sum;
   dyd_cert_fraction_init(&sum);
@@ -375,13 +375,13 @@ static bool spans_all(grid_search *s, const dyd_cert_window *w) {
 
 /* ---- all ---- */
 
-static void distance_search_init(grid_search *s) {
+static void distance_search_init(search *s) {
   mpz_inits(s->origin[0], s->origin[1], s->root, s->rest, NULL);
   dyd_cert_fraction_init(&s->gap);
   dyd_cert_fraction_init(&s->part);
 }
 
-static void distance_search_clear(grid_search *s) {
+static void distance_search_clear(search *s) {
   mpz_clears(s->origin[0], s->origin[1], s->root, s->rest, NULL);
   dyd_cert_fraction_clear(&s->gap);
   dyd_cert_fraction_clear(&s->part);
@@ -391,7 +391,7 @@ static void distance_search_clear(grid_search *s) {
 
 dyd_status dyd_cert_distance_holds(bool *holds, const dyd_cert_sites *sites, const dyd_cert_window *w,
                                    const dyd_exact *bound) {
-  grid_search s = {.sites = sites, .bound = bound};
+  search s = {.sites = sites, .bound = bound};
   grid_box window;
   distance_search_init(&s);
   s.item = dyd_alloc(sites->count, sizeof *s.item);
