@@ -154,6 +154,15 @@ void dyd_json_window(dyd_json *j, const char *name, const dyd_rect *w, const cha
 
 /* ---- results ---- */
 
+void dyd_json_schedule(dyd_json *j, const dyd_engine_options *o) {
+  dyd_json_word(j, "schedule", dyd_schedule_text(o->schedule));
+  dyd_json_word(j, "goal", dyd_goal_text(o->goal));
+  dyd_json_signed(j, "goal_bits", o->goal_bits);
+  dyd_json_signed(j, "start_bits", o->start_bits);
+  dyd_json_signed(j, "step_bits", o->step_bits);
+  dyd_json_signed(j, "max_bits", o->max_bits);
+}
+
 void dyd_json_head(dyd_json *j, const char *format, const dyd_output *o) {
   const char *const *word = o->style.command_line;
   dyd_json_object(j, NULL, DYD_JSON_LINES);

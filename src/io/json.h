@@ -139,6 +139,8 @@ void dyd_json_window(dyd_json *j, const char *name, const dyd_rect *w, const cha
 
 /* The object of a file: "format", "version", and where they are known "command_line" and "crs". */
 void dyd_json_head(dyd_json *j, const char *format, const dyd_output *o);
+/* What a run narrows, and until when: its schedule, goal, and bits. */
+void dyd_json_schedule(dyd_json *j, const dyd_engine_options *o);
 /* "confidence", "k" and "n", where points have a confidence. */
 void dyd_json_confidence(dyd_json *j, const dyd_engine *e);
 /* The head with the outcome and confidence, where pairs of numbers are rounded outward and texts are exact. */

@@ -96,12 +96,7 @@ static dyd_status trace_head(dyd_trace *t, const char *input, const dyd_engine_o
   dyd_json_word(j, "format", FORMAT);
   dyd_json_index(j, "points", t->points);
   if (input) dyd_json_word(j, "input", input);
-  dyd_json_word(j, "schedule", dyd_schedule_text(o->schedule));
-  dyd_json_word(j, "goal", dyd_goal_text(o->goal));
-  dyd_json_signed(j, "goal_bits", o->goal_bits);
-  dyd_json_signed(j, "start_bits", o->start_bits);
-  dyd_json_signed(j, "step_bits", o->step_bits);
-  dyd_json_signed(j, "max_bits", o->max_bits);
+  dyd_json_schedule(j, o);
   dyd_json_index(j, "max_pairs", o->max_pairs);
   dyd_json_word(j, "of", dyd_converge_of_text(c->of));
   if (c->window) dyd_json_window(j, "window", c->window, ",");

@@ -724,12 +724,7 @@ static void stages_json_head(dyd_json *j, const dyd_output *out) {
   dyd_json_word(j, "rounding",
                 "widths and bounds are upper bounds; exact is exact, decimal is rounded up; null is not known, or "
                 "beyond the largest double; seconds are rounded up");
-  dyd_json_word(j, "schedule", dyd_schedule_text(o->schedule));
-  dyd_json_word(j, "goal", dyd_goal_text(o->goal));
-  dyd_json_signed(j, "goal_bits", o->goal_bits);
-  dyd_json_signed(j, "start_bits", o->start_bits);
-  dyd_json_signed(j, "step_bits", o->step_bits);
-  dyd_json_signed(j, "max_bits", o->max_bits);
+  dyd_json_schedule(j, o);
   dyd_json_raw(j, "seed", "null");
   dyd_json_word(j, "outcome", dyd_outcome_text(c->outcome));
   dyd_json_window(j, "window", c->window, ",");
