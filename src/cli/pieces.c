@@ -28,30 +28,30 @@ static bool pieces_are_known(const cli_pieces *p, const dyd_engine *e) {
 
 /* At each precision the points that make the piece come first, then, as far as they are known, the others that are
  * wanted. If one group wants nothing, the other one has its turn. */
-static dyd_status pieces_plan(dyd_wants *plan, cli_pieces *p) {
+static dyd_status pieces_want(dyd_wants *wants, cli_pieces *p) {
   dyd_status st = DYD_OK;
-  for (int turn = 0; turn < 2 && st == DYD_OK && !dyd_wants_count(plan); turn++) {
+  for (int turn = 0; turn < 2 && st == DYD_OK && !dyd_wants_count(wants); turn++) {
     size_t end = p->rest ? p->count : p->first;
     if (!p->rest) p->bits *= 2;
     for (size_t i = p->rest ? p->first : 0; st == DYD_OK && i < end; i++)
-      if (!p->wanted || p->wanted(p, i)) st = dyd_wants_add(plan, (uint32_t)i, p->bits);
+      if (!p->wanted || p->wanted(p, i)) st = dyd_wants_add(wants, (uint32_t)i, p->bits);
     p->rest = !p->rest;
   }
   return st;
 }
 
 /* Before all points have a rectangle nothing can be said. */
-static dyd_status pieces_ask(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status pieces_ask(bool *answered, dyd_wants *wants, void *user, const dyd_engine *e, dyd_error *err) {
   cli_pieces *p = user;
   dyd_status st = DYD_OK;
   (void)err;
   if (!pieces_are_known(p, e)) {
-    for (size_t i = 0; st == DYD_OK && i < p->count; i++) st = dyd_wants_add(plan, (uint32_t)i, p->bits);
+    for (size_t i = 0; st == DYD_OK && i < p->count; i++) st = dyd_wants_add(wants, (uint32_t)i, p->bits);
     return st;
   }
   for (size_t i = 0; st == DYD_OK && i < p->count; i++) st = dyd_sites_get(&p->own[i], dyd_engine_sites(e), i);
   *answered = st == DYD_OK && p->answered(p);
-  return st == DYD_OK && !*answered ? pieces_plan(plan, p) : st;
+  return st == DYD_OK && !*answered ? pieces_want(wants, p) : st;
 }
 
 /* Doubles the precision of the points that are wanted until the question is answered, they are final, the budget is

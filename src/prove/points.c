@@ -52,7 +52,7 @@ static dyd_status locate_point(location *l, const dyd_engine *e, dyd_rect *r, ui
   return p->final ? location_wrong(l, i, "is narrower than the point is known") : DYD_OK;
 }
 
-static dyd_status location_ask(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status location_ask(bool *answered, dyd_wants *wants, void *user, const dyd_engine *e, dyd_error *err) {
   location *l = user;
   (void)err;
   DYD_LOCAL(dyd_rect, r);
@@ -63,7 +63,7 @@ static dyd_status location_ask(bool *answered, dyd_wants *plan, void *user, cons
     st = locate_point(l, e, &r, i);
     if (st != DYD_OK || l->found[i] || l->why) continue;
     l->open++;
-    st = dyd_wants_add(plan, i, DYD_BITS_NEXT);
+    st = dyd_wants_add(wants, i, DYD_BITS_NEXT);
   }
   *answered = l->open == 0 || l->why;
   return st;

@@ -351,7 +351,7 @@ static void option_set(void *at, option_kind kind, PyObject *value) {
 }
 
 /* A dict of bits by points, or None. */
-static dyd_status policy_answer(dyd_wants *plan, PyObject *answer) {
+static dyd_status policy_answer(dyd_wants *wants, PyObject *answer) {
   PyObject *point, *bits;
   Py_ssize_t at = 0;
   if (answer == Py_None) return DYD_OK;
@@ -361,14 +361,14 @@ static dyd_status policy_answer(dyd_wants *plan, PyObject *answer) {
     Py_ssize_t i = PyNumber_AsSsize_t(point, PyExc_OverflowError);
     long long b = PyLong_AsLongLong(bits);
     if (PyErr_Occurred()) break;
-    dyd_status st = dyd_wants_add(plan, i < 0 || i > UINT32_MAX ? UINT32_MAX : (uint32_t)i, b);
+    dyd_status st = dyd_wants_add(wants, i < 0 || i > UINT32_MAX ? UINT32_MAX : (uint32_t)i, b);
     if (st != DYD_OK) return st;
   }
   return PyErr_Occurred() ? DYD_E_STREAM : DYD_OK;
 }
 
 /* Calls policy(pairs, plan): a list of undecided pairs, and a dict of bits by points. */
-static dyd_status python_policy(dyd_wants *plan, PyObject *policy, const dyd_pair_list *pairs,
+static dyd_status python_policy(dyd_wants *wants, PyObject *policy, const dyd_pair_list *pairs,
                                 const dyd_request *request, size_t count) {
   OWNED *list = PyList_New(0), *dict = PyDict_New(), *answer = NULL;
   for (size_t k = 0; list && !PyErr_Occurred() && k < pairs->count; k++) {
@@ -382,15 +382,15 @@ static dyd_status python_policy(dyd_wants *plan, PyObject *policy, const dyd_pai
     if (point && bits) PyDict_SetItem(dict, point, bits);
   }
   if (list && dict && !PyErr_Occurred()) answer = PyObject_CallFunctionObjArgs(policy, list, dict, NULL);
-  return answer ? policy_answer(plan, answer) : DYD_E_STREAM;
+  return answer ? policy_answer(wants, answer) : DYD_E_STREAM;
 }
 
-static dyd_status policy_asked(dyd_wants *plan, void *user, const dyd_engine *e, const dyd_request *request,
+static dyd_status policy_asked(dyd_wants *wants, void *user, const dyd_engine *e, const dyd_request *request,
                                size_t count, dyd_error *err) {
   SCOPED(dyd_pair_list) pairs = {0};
   dyd_status st = dyd_engine_delaunay(e) ? dyd_delaunay_pairs(&pairs, dyd_engine_delaunay(e)) : DYD_OK;
   PyGILState_STATE gil = PyGILState_Ensure();
-  if (st == DYD_OK) st = PyErr_Occurred() ? DYD_E_STREAM : python_policy(plan, user, &pairs, request, count);
+  if (st == DYD_OK) st = PyErr_Occurred() ? DYD_E_STREAM : python_policy(wants, user, &pairs, request, count);
   if (PyErr_Occurred()) st = dyd_error_set(err, DYD_E_STREAM, "the policy raised an exception");
   PyGILState_Release(gil);
   return st;

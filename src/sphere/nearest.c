@@ -301,18 +301,18 @@ static dyd_status near_look(bool *blocked, near_question *q, slong most, const v
   return st == DYD_OK && q->exact ? near_separate(blocked, q, most, stop) : st;
 }
 
-static dyd_status near_ask(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status near_ask(bool *answered, dyd_wants *wants, void *user, const dyd_engine *e, dyd_error *err) {
   near_question *q = user;
   bool blocked = false;
   size_t staying = 0;
-  dyd_status st = near_look(&blocked, q, plan->o->max_bits, &e->stop, err);
+  dyd_status st = near_look(&blocked, q, wants->o->max_bits, &e->stop, err);
   *answered = st == DYD_OK && q->near.count == 1;
-  plan->blocked |= blocked;
+  wants->blocked |= blocked;
   if (st != DYD_OK || *answered || q->exact || !q->near.count) return st;
   st = near_keep(&staying, q, true);
   if (st != DYD_OK || staying > 1) return st;
-  for (size_t k = 0; k < q->near.count; k++) dyd_wants_add(plan, q->near.item[k], DYD_BITS_NEXT);
-  dyd_wants_add(plan, (uint32_t)dyd_engine_count(e), DYD_BITS_NEXT);
+  for (size_t k = 0; k < q->near.count; k++) dyd_wants_add(wants, q->near.item[k], DYD_BITS_NEXT);
+  dyd_wants_add(wants, (uint32_t)dyd_engine_count(e), DYD_BITS_NEXT);
   return DYD_OK;
 }
 
