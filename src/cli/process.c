@@ -294,10 +294,14 @@ static void deadline_wait(double at) {
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, NULL) == EINTR) continue;
 }
 
-static void *deadline_raise(void *unused) {
-  deadline_wait(ends);
+static void deadline_note(void) {
   __atomic_store_n(&late, 1, __ATOMIC_SEQ_CST);
   signals_stop();
+}
+
+static void *deadline_raise(void *unused) {
+  deadline_wait(ends);
+  deadline_note();
   return unused;
 }
 
@@ -318,6 +322,8 @@ void cli_deadline_start(double seconds) {
   ends = cli_clock() + seconds;
   grace = fmax(0.9, 0.09 * seconds);
   if (signals_spare(&thread, deadline_watch, NULL)) pthread_detach(thread);
+  /* A short limit ends before the thread begins, and small work with it. */
+  if (cli_clock() >= ends) deadline_note();
 }
 
 void cli_deadline_again(void) {
