@@ -4,8 +4,8 @@
  * of a gap between them [SPH-5]; also where each may coincide with another one.
  *
  * A guess in doubles: on it depends how wide images are, not whether they are right. Places are compared by distances
- * between the middles of regions, so that wider radii do not change which place, or which gap, is best; a gap is taken
- * from some width on, and where a place is projected from and leaves pairs open, the gap is looked from, too
+ * between the middles of regions, so that wider radii do not change which place, or which gap, is best, unless they
+ * reach it; a gap is taken from some width on, and where regions leave pairs open, the gap is looked from, too
  * (sphere.c): so wider radii decide no more. */
 #include "base/alloc.h"
 #include "base/error.h"
@@ -78,11 +78,14 @@ static room_guess guess_room(const ball_guess *g, size_t n, const ball_guess *fr
   return r;
 }
 
+/* Scores of exact places are above EXACT, of others below. */
+#define EXACT 1e100
+
 /* Better ones are greater; 0 where it is not apart from all, or touches one, by doubles. */
 static double guess_score(const ball_guess *g, size_t n, const ball_guess *from) {
   const room_guess r = guess_room(g, n, from, 0);
   if (r.left <= EVEN * r.distance) return 0;
-  return from->eye == 0 ? 1e9 + r.distance : r.distance / from->eye;
+  return from->eye == 0 ? 1e20 * EXACT * r.distance : fmin(r.distance / from->eye, EXACT);
 }
 
 /* Tries the narrowest places, spread among all exact ones; more only while none is apart. */
@@ -93,7 +96,7 @@ static double guess_best(uint32_t *out, const ball_guess *g, size_t n) {
   if (most > CANDIDATES) most = CANDIDATES;
   size_t step = exact > most ? exact / most : 1;
   for (size_t k = 0; k < n && tried < all && (tried < most || best <= 0); k += k < exact ? step : 1, tried++) {
-    if (best > 1e9 && g[k].reach > 0) break;
+    if (best > EXACT && g[k].reach > 0) break;
     double score = guess_score(g, n, &g[k]);
     bool same = fabs(score - best) <= EVEN * best; /* two places may be nearest to each other */
     if (tried && (same ? g[k].place > *out : score < best)) continue;

@@ -245,12 +245,24 @@ static double *costs_of_images(const dyd_sphere *s, const double *cost) {
   return out;
 }
 
-/* [SPH-5] A statement from one eye holds whatever is unknown from another. A wide centre widens all images; from a
- * gap only the pairs about it are lost. So pairs that are indeterminate from the first are examined from the second, a
- * gap, and those around that from another one. */
+/* [SPH-5] A statement from one eye holds whatever is unknown from another. A wide centre widens all images, and a
+ * region near any centre has a wide one; from a gap only the pairs about it are lost. So where there are regions, pairs
+ * that are indeterminate from the first are examined from the second, a gap, and those around that from another one. */
 static dyd_status second_make(dyd_sphere *s, dyd_error *err) {
   dyd_status st = dyd_sphere_new_gap(&s->second, s, err);
   return st == DYD_OK && s->second ? images_make(s->second, err) : st;
+}
+
+/* *wide: some place has a region that stays. */
+static dyd_status regions_look(bool *wide, const dyd_sphere *s, dyd_error *err) {
+  DYD_LOCAL(dyd_spot, spot);
+  dyd_status st = DYD_OK;
+  *wide = false;
+  for (uint32_t i = 0; i < s->count && !*wide && st == DYD_OK; i++) {
+    st = dyd_sphere_spot(&spot, s, i, err);
+    *wide = spot.stays;
+  }
+  return st;
 }
 
 /* With the time that is left, since `begun`; a cancel of the first cancels it. Where images from the gap fail, the
@@ -304,6 +316,16 @@ static dyd_status gap_look(dyd_sphere *s) {
   return st;
 }
 
+static dyd_status second_look(dyd_sphere *s, const dyd_engine_options *options, double begun, dyd_error *err) {
+  bool wide;
+  dyd_status st = regions_look(&wide, s, err);
+  if (st != DYD_OK || !(wide || s->free)) return st;
+  st = second_run(s, s, options, begun, err);
+  if (st != DYD_OK || !s->free || !s->second) return st;
+  st = gap_look(s);
+  return st < 0 ? dyd_fail(err, st, "%s", dyd_status_text(st)) : DYD_OK;
+}
+
 static dyd_status places_pairs(dyd_pair_list *out, void *user) {
   return dyd_sphere_pairs(out, user);
 }
@@ -323,12 +345,8 @@ static dyd_status sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engi
   free(cost);
   if (st == DYD_OK) st = dyd_sphere_narrow_recalled(s, o.max_bits, err);
   if (st == DYD_OK) *outcome = dyd_sphere_outcome(s);
-  if (st == DYD_OK && *outcome == DYD_OUTCOME_FIXPOINT && (s->eye.spot.stays || s->free)) {
-    st = second_run(s, s, &o, begun, err);
-    if (st == DYD_OK && s->free && s->second) {
-      st = gap_look(s);
-      if (st < 0) st = dyd_fail(err, st, "%s", dyd_status_text(st));
-    }
+  if (st == DYD_OK && *outcome == DYD_OUTCOME_FIXPOINT) {
+    st = second_look(s, &o, begun, err);
     if (st == DYD_OK) *outcome = dyd_sphere_outcome(s);
   }
   if (table && st == DYD_OK) table->outcome = *outcome;

@@ -184,6 +184,33 @@ def test_no_ties():
     expect(got, 0, '0,1,legal\n0,2,legal\n1,2,legal')
 
 
+def interval(lower, upper):
+    return str(lower) if lower == upper else f'[{lower},{upper}]'
+
+
+def test_exact_among_wide():
+    """Wider regions decide no more where some places are exact: the place that is projected from may be another one."""
+    r = random.Random(SEED)
+    sets = [[(-181, -178, 31, 31), (-189, -189, 33, 35), (-188, -188, -2, -2), (-188, -188, 38, 40), (-187, -181, 0, 5), (183, 183, -16, -16)]]
+    for _ in range(cases(150)):
+        (lon, lat), span, share = r.choice([(0, 0), (180, 10), (30, 70)]), r.choice([10, 20, 40]), r.random()
+        boxes = []
+        for _ in range(r.randint(4, 9)):
+            x, y = lon + r.randint(-span, span), max(-85, min(85, lat + r.randint(-span, span)))
+            w, h = (0 if r.random() < share else r.choice([0.5, 1, 1.5, 3]) for _ in 'xy')
+            boxes.append((x - w, x + w, max(-89, y - h), min(89, y + h)))
+        sets.append(boxes)
+    for boxes in sets:
+        wide = []
+        for w, e, s, n in boxes:
+            more = r.random() < 0.7 or boxes is sets[0]
+            x, y = ((e - w) / 2, (n - s) / 2) if more else (0, 0)
+            wide.append((w - x, e + x, max(-90, s - y), min(90, n + y)))
+        one, other = (statuses([(interval(w, e), interval(s, n)) for w, e, s, n in b]) for b in (boxes, wide))
+        for pair, status in (other or {}).items() if one else ():
+            assert status in ('indeterminate', 'tie', one[pair]), (SEED, boxes, wide, pair, one[pair], status)
+
+
 def test_cancelled():
     """The first SIGTERM ends a long run."""
     places = ''.join(f'{k * 0.07 % 5:.4f},{k * 0.31 % 4 + 84:.4f}\n' for k in range(4000))
