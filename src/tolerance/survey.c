@@ -13,6 +13,7 @@
 #include "delaunay/memory.h"
 #include "delaunay/state.h"
 #include "rect/rect.h"
+#include "rect/sites_table.h"
 #include "tolerance/lines.h"
 
 #include <dyadel/tolerance.h>
@@ -430,6 +431,15 @@ static dyd_status plane_rect(dyd_rect *out, const void *trial, size_t i) {
   return st;
 }
 
+/* Discs that were not measured are as they were given. */
+static dyd_status plane_kinds(dyd_sites *now, const dyd_trial *d) {
+  const dyd_sites *given = dyd_delaunay_sites(d->of->user);
+  dyd_status st = DYD_OK;
+  for (size_t i = 0; i < d->of->sites && st == DYD_OK; i++)
+    if (!(d->needed[i] > 0)) st = dyd_sites_set_kind(now, i, 1, dyd_sites_kind(given, i));
+  return st;
+}
+
 static dyd_status plane_step(dyd_survey **next, dyd_trial *d, dyd_error *err) {
   const dyd_trials *t = d->of;
   const dyd_delaunay *pd = t->user;
@@ -440,7 +450,8 @@ static dyd_status plane_step(dyd_survey **next, dyd_trial *d, dyd_error *err) {
   if (st != DYD_OK) return st;
   dyd_delaunay_free(d->now);
   d->now = then;
-  return dyd_survey_new(next, then, &t->options, err);
+  st = plane_kinds(then->own, d);
+  return st == DYD_OK ? dyd_survey_new(next, then, &t->options, err) : dyd_fail(err, st, "%s", dyd_status_text(st));
 }
 
 static void plane_end(void *now) {

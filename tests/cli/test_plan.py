@@ -306,6 +306,10 @@ def test_simulate():
     expect(run('plan', '--simulate', '5', '-', stdin='0 0\n1 0\n0 1\n'), 0, r'0,0,0,0,0\n1,0,0,0,0\n')
     square = '0+-0.1 0\n1 0+-0.1\n1 1\n0 1\n'
     expect(run('plan', '--simulate', '2', '-', stdin=square), 0, r'0,0,0,0,2\n1,0,0,0,2\n')
+    # Computed discs are not square by more than their coordinates are rounded by.
+    tiny = '2^-500+pi*60*2^-501 log(6)*2^-501-25*2^-499\n47*2^-499+log(18)*2^-500 39*2^-500+pi*11*2^-501\n' \
+        '95*2^-500+exp(8/20)*2^-501 3*2^-499\n15*2^-499+sqrt(15+sqrt(2))*2^-501 47*2^-499+cbrt(21)*2^-500\n'
+    expect(run('plan', '--discs', '--radius', '5*2^-504', '--simulate', '3', '--seed', '5', '-', stdin=tiny), 0, '2,2,2,2,0')
     globe = run('plan', '--simulate', '4', '--sphere', '--radius', '40km', '-', stdin=GLOBE)
     expect(globe, 0)
     assert len(rows(globe.out)) == 4 and all(int(t['rounds']) for t in rows(globe.out)), globe.out
