@@ -33,10 +33,9 @@ enum { MOST_DECIMAL = 18, MOST_HEX = 15 }; /* how many digits, without zeros in 
 #define MOST_MAN (UINT64_C(1) << 60)
 
 /* One more than the value of a digit; 0: it is none. */
-static unsigned text_hex(char c) {
-  if (c >= '0' && c <= '9') return (unsigned)(c - '0') + 1;
-  if (c >= 'a' && c <= 'f') return (unsigned)(c - 'a') + 11;
-  return c >= 'A' && c <= 'F' ? (unsigned)(c - 'A') + 11 : 0;
+static inline unsigned text_hex(char c) {
+  const unsigned digit = (unsigned)(unsigned char)c - '0', letter = ((unsigned)(unsigned char)c | 32) - 'a';
+  return (digit < 10) * (digit + 1) + (letter < 6) * (letter + 11);
 }
 
 static size_t text_hex_digits(uint64_t *man, const char *text, size_t length, size_t pos) {

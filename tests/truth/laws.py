@@ -114,10 +114,12 @@ def clear(case, last, i, j):
     if not case.true or e == 0:
         return e
     rand = random.Random(7)
-    for _ in range(2):
-        p = [tuple(c + CLEAR_STEP * rand.randint(-9, 9) for c in q) for q in last.points]
-        if oracle.edge(oracle.whole(p)[0], i, j, range(len(p))) != e:
-            return 0
+    for _ in range(2):  # there and back: what is a tie becomes one thing on the one side, the other on the other
+        step = [[CLEAR_STEP * rand.randint(-9, 9) for _ in q] for q in last.points]
+        for way in 1, -1:
+            p = [tuple(c + way * d for c, d in zip(q, by)) for q, by in zip(last.points, step)]
+            if oracle.edge(oracle.whole(p)[0], i, j, range(len(p))) != e:
+                return 0
     return e
 
 
