@@ -32,10 +32,13 @@ char *dyd_dyadic_get_str(const dyd_dyadic *x) {
 enum { MOST_DECIMAL = 18, MOST_HEX = 15 }; /* how many digits, without zeros in front, 60 bits hold */
 #define MOST_MAN (UINT64_C(1) << 60)
 
-/* One more than the value of a digit; 0: it is none. */
+/* From '0' to 'f': one more than the value of the digit; 0: it is none. */
+static const unsigned char hex_digit['f' - '0' + 1] = {
+    1, 2, 3, 4, 5, 6, 7, 8, 9, 10, ['A' - '0'] = 11, 12, 13, 14, 15, 16, ['a' - '0'] = 11, 12, 13, 14, 15, 16};
+
+/* The same of any character. */
 static inline unsigned text_hex(char c) {
-  const unsigned digit = (unsigned)(unsigned char)c - '0', letter = ((unsigned)(unsigned char)c | 32) - 'a';
-  return (digit < 10) * (digit + 1) + (letter < 6) * (letter + 11);
+  return c >= '0' && c <= 'f' ? hex_digit[c - '0'] : 0;
 }
 
 static size_t text_hex_digits(uint64_t *man, const char *text, size_t length, size_t pos) {
