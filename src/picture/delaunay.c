@@ -47,10 +47,16 @@ static bool find_middles(delaunay_drawing *d) {
   return d->at;
 }
 
-/* Asks memory for the ends of a line to come: those of the second sites lie anywhere. */
+/* Places are prefetched for what comes so many steps later, since they lie anywhere in memory. */
+enum { AHEAD = 16 };
+
 static void fetch_line(const delaunay_drawing *d, size_t p) {
-  enum { AHEAD = 16 };
   if (p + AHEAD < d->r->pairs.count) __builtin_prefetch(d->at[d->r->pairs.item[p + AHEAD].j]);
+}
+
+static void fetch_triangle(const delaunay_drawing *d, size_t k) {
+  for (int corner = 0; corner < 3 && k + AHEAD < d->triangles.count; corner++)
+    __builtin_prefetch(d->at[d->triangles.item[k + AHEAD].v[corner]]);
 }
 
 static bool line_of(double z[2][2], const delaunay_drawing *d, const dyd_pair *pair, const double frame[4]) {
@@ -65,7 +71,8 @@ static bool is_covered(const dyd_density *by, double z[][2], int n) {
   if (!by->count) return false;
   for (int k = 0; k < 2 * n; k++) {
     double at = z[k / 2][k & 1], *side = box + 2 * (k & 1);
-    side[0] = fmin(side[0], at), side[1] = fmax(side[1], at);
+    if (at < side[0]) side[0] = at;
+    if (at > side[1]) side[1] = at;
   }
   return dyd_density_covers(by, box);
 }
@@ -99,6 +106,7 @@ static void triangles_walk(dyd_picture *p, const dyd_picture_layer *l) {
   for (size_t k = 0; k < d->triangles.count; k++) {
     const uint32_t *v = d->triangles.item[k].v;
     double z[DYD_CLIP_MOST][2];
+    fetch_triangle(d, k);
     for (int corner = 0; corner < 3; corner++) memcpy(z[corner], d->at[v[corner]], sizeof z[corner]);
     if (is_covered(&d->pairs.dense[LEGAL], z, 3) || !polygon_path(p->canvas, d, z, 3) || !has_names(d)) continue;
     name_triangle(p->canvas, d->r->engine, v, l->text);
@@ -301,7 +309,7 @@ dyd_status dyd_delaunay_picture(const dyd_output *o) {
                         .pairs = {.list = &r->pairs, .engine = r->engine},
                         .picture = {graph ? &dyd_graph_layers : &dyd_delaunay_layers,
                                     graph ? graph : "partial Delaunay triangulation",
-                                    .lines = {r->pairs.count, dyd_pairs_kind, edge_path, NULL}}};
+                                    .lines = {r->pairs.count, NULL, edge_path, NULL}}};
   d.picture.view = &d.view, d.picture.what = &d, d.picture.sites = &d.marks, d.picture.pairs = &d.pairs;
   dyd_status st = delaunay_see(&d, o);
   if (st == DYD_OK && !graph) st = dyd_delaunay_triangles(&d.triangles, NULL, r->pd, 0);

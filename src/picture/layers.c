@@ -62,7 +62,8 @@ bool dyd_picture_join(dyd_picture *p, const dyd_result *r, uint32_t i, uint32_t 
 
 void dyd_lines_walk(dyd_picture *p, const dyd_picture_layer *l) {
   for (size_t k = 0; k < p->lines.count; k++) {
-    if (p->lines.kind(p, k) != l->kind || !p->lines.path(p, k) || !p->lines.name) continue;
+    const int kind = p->lines.kind ? p->lines.kind(p, k) : dyd_pairs_kind(p, k);
+    if (kind != l->kind || !p->lines.path(p, k) || !p->lines.name) continue;
     p->lines.name(p, l, k);
     dyd_picture_paint(p, l);
   }

@@ -243,12 +243,6 @@ void dyd_sites_entry(dyd_legend *legend, const dyd_picture *p, const dyd_picture
 
 /* ---- pairs ---- */
 
-int dyd_pairs_kind(const dyd_picture *p, size_t k) {
-  const dyd_pair_status status = p->pairs->list->item[k].status;
-  if (status != DYD_LEGAL && status != DYD_TIE) return p->pairs->crowded ? -1 : DYD_KIND_OPEN;
-  return status == DYD_LEGAL ? DYD_KIND_LEGAL : DYD_KIND_TIE;
-}
-
 void dyd_pairs_name(dyd_picture *p, const dyd_picture_layer *l, size_t k) {
   const dyd_pair *pair = &p->pairs->list->item[k];
   dyd_picture_name_pair(p->canvas, p->pairs->engine, pair->i, pair->j, l->text);

@@ -164,7 +164,8 @@ extern const dyd_picture_table dyd_delaunay_layers, dyd_graph_layers, dyd_tolera
 /* Returns true if each row has a style, a key that suits it, and its words and place in the legend. */
 bool dyd_picture_is_whole(const dyd_picture_table *t);
 
-/* Lines between sites, each in the layer whose kind it has. name: of the line that is the path; NULL: none has one. */
+/* Lines between sites, each in the layer whose kind it has. kind: NULL: that of the pair; name: of the line that is the
+ * path; NULL: none has one. */
 typedef struct dyd_picture_lines {
   size_t count;
   int (*kind)(const dyd_picture *p, size_t k);
@@ -320,7 +321,11 @@ typedef struct dyd_pairs_shown {
 } dyd_pairs_shown;
 
 /* Of pair k; -1: squares are drawn instead of it. */
-int dyd_pairs_kind(const dyd_picture *p, size_t k);
+static inline int dyd_pairs_kind(const dyd_picture *p, size_t k) {
+  const dyd_pair_status status = p->pairs->list->item[k].status;
+  if (status != DYD_LEGAL && status != DYD_TIE) return p->pairs->crowded ? -1 : DYD_KIND_OPEN;
+  return status == DYD_LEGAL ? DYD_KIND_LEGAL : DYD_KIND_TIE;
+}
 void dyd_pairs_name(dyd_picture *p, const dyd_picture_layer *l, size_t k);
 /* Finds out whether the open ones are crowded, once all are counted. */
 void dyd_pairs_settle(dyd_pairs_shown *pairs);

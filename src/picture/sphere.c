@@ -363,7 +363,7 @@ static dyd_status sphere_draw(const dyd_output *o, const dyd_picture_table *tabl
                             .what = &d,
                             .sites = &d.marks,
                             .pairs = &d.pairs,
-                            .lines = {r->pairs.count, dyd_pairs_kind, sphere_path, dyd_pairs_name}};
+                            .lines = {r->pairs.count, NULL, sphere_path, dyd_pairs_name}};
   d.pairs = (dyd_pairs_shown){.list = &r->pairs, .engine = places};
   if (r->survey)
     d.picture.lines.kind = plan_kind, d.picture.lines.name = plan_name, d.marks.plan = &d.plan;
