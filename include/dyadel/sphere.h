@@ -53,8 +53,8 @@ DYD_API dyd_engine *dyd_sphere_images(const dyd_sphere *s);
 /* The engine that it was made of. */
 DYD_API const dyd_engine *dyd_sphere_places(const dyd_sphere *s);
 /* As dyd_engine_run of the images; start_bits 0: 40, which doubles hold; cost: of places. Decided means that all pairs
- * are.
- * Places are asked again what images were recalled (dyd_engine_recall) for. */
+ * are. Places are asked again what images were recalled (dyd_engine_recall) for. The point of an error is a place, also
+ * where the one projected from fails. */
 DYD_API dyd_status dyd_sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engine_options *options,
                                   dyd_error *err);
 

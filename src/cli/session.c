@@ -324,7 +324,7 @@ int cli_session_run(cli_session *s, const dyd_engine_options *options, cli_run_f
   if (s->outcome == DYD_OUTCOME_NONE) s->outcome = dyd_engine_outcome(s->engine);
   if (s->forgot) return cli_complain_memory();
   if (st == DYD_OK) return 0;
-  cli_complain_of(s->engine, s->o.file, &err);
+  cli_complain_of(s->places ? s->places : s->engine, s->o.file, &err);
   return cli_exit_refused(&s->o, st);
 }
 

@@ -207,13 +207,10 @@ bool dydpy_begin(dydpy_call *c, PyObject *self, int how) {
   return true;
 }
 
-/* Images are named by their places. */
 bool dydpy_end(dydpy_call *c, dyd_status st) {
   if (c->thread) PyEval_RestoreThread(c->thread);
   if (c->self) c->self->busy = false;
   if (c->how & (DYDPY_CANCELS | DYDPY_REFINES)) dydpy_guard_end(&c->guard);
-  if (c->self && c->self->sphere && c->err.point != DYD_NO_POINT)
-    c->err.point = dyd_sphere_place(c->self->sphere, (uint32_t)c->err.point);
   if (st != DYD_OK) dydpy_raise(&c->err, st);
   return !PyErr_Occurred();
 }

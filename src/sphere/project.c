@@ -432,6 +432,7 @@ static dyd_status centre_narrow(dyd_sphere *s, const image_wish *w, dyd_error *e
   if (s->eye_bits >= w->bits) return DYD_OK;
   dyd_status st = place_narrow(s, s->centre, w, err);
   if (st == DYD_OK) st = dyd_sphere_spot(&s->eye.spot, s, s->centre, err);
+  s->centre_failed = dyd_failed(st);
   if (st != DYD_OK) return st;
   dyd_spot_box(&s->eye.spot);
   s->eye.prec = 0;
@@ -553,6 +554,12 @@ dyd_status dyd_sphere_place_at(dyd_rect *out, void *user, const dyd_site_place *
   return st;
 }
 
+dyd_status dyd_sphere_blame(const dyd_sphere *s, dyd_status st, dyd_error *err) {
+  if (dyd_failed(st) && err && err->point < s->with_image)
+    err->point = s->centre_failed ? s->centre : s->of[err->point];
+  return st;
+}
+
 /* An image that is known without its source having been asked may be narrower than its place would have it. */
 dyd_status dyd_sphere_narrow_recalled(dyd_sphere *s, int64_t max_bits, dyd_error *err) {
   dyd_status st = DYD_OK;
@@ -566,7 +573,7 @@ dyd_status dyd_sphere_narrow_recalled(dyd_sphere *s, int64_t max_bits, dyd_error
     if (st != DYD_OK && err) err->point = k;
     image_clear(&m);
   }
-  return st;
+  return dyd_sphere_blame(s, st, err);
 }
 
 /* ---- a first look ---- */

@@ -278,7 +278,7 @@ static dyd_status second_run(dyd_sphere *s, dyd_sphere *first, const dyd_engine_
   o.progress = NULL;
   o.trace = NULL;
   dyd_engine_follow(first->images, s->second->images);
-  st = dyd_engine_run(&outcome, s->second->images, &o, err);
+  st = dyd_sphere_blame(s->second, dyd_engine_run(&outcome, s->second->images, &o, err), err);
   dyd_engine_follow(first->images, NULL);
   if (st == DYD_E_DOMAIN) {
     dyd_sphere_free(s->second);
@@ -343,6 +343,7 @@ static dyd_status sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engi
   dyd_status st =
       table ? dyd_converge_run(table, s->images, &o, &how, err) : dyd_engine_run(outcome, s->images, &o, err);
   free(cost);
+  dyd_sphere_blame(s, st, err);
   if (st == DYD_OK) st = dyd_sphere_narrow_recalled(s, o.max_bits, err);
   if (st == DYD_OK) *outcome = dyd_sphere_outcome(s);
   if (st == DYD_OK && *outcome == DYD_OUTCOME_FIXPOINT) {

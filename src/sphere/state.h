@@ -107,6 +107,7 @@ struct dyd_sphere {
   mpq_t metre;          /* radians to a metre */
   mpq_t angle, degrees; /* the radius in the options: radians, or degrees of longitude and latitude */
   dyd_eye eye;          /* the centre, as it was asked last */
+  bool centre_failed;   /* its stream, or its latitude, so that no image is known */
   int64_t eye_bits;
   dyd_eye_d eye_d; /* the same in doubles, where first looks are in doubles */
   /* The same places, projected from another gap; made where a wide centre, or a gap, leaves pairs indeterminate. NULL:
@@ -145,6 +146,8 @@ dyd_status dyd_sphere_choose_gap(dyd_sphere *s, const dyd_sphere *other, dyd_err
 
 /* project.c: adds the images to s->images. */
 dyd_status dyd_sphere_add_images(dyd_sphere *s, dyd_error *err);
+/* Returns st; where images failed, err names the place concerned, no more the image. */
+dyd_status dyd_sphere_blame(const dyd_sphere *s, dyd_status st, dyd_error *err);
 /* Narrows places and centre as if images that a trace gave had been asked for, so that statements about images hold for
  * all choices in the rectangles of their places. */
 dyd_status dyd_sphere_narrow_recalled(dyd_sphere *s, int64_t max_bits, dyd_error *err);

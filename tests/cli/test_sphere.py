@@ -732,6 +732,22 @@ def test_computable_places():
     expect(run('delaunay', '--sphere', '-', stdin=unknown), 4, '0,1,legal\n0,2,indeterminate', 'precision limit reached')
 
 
+def test_failing_oracle():
+    """The message names the place that fails, be it one that is projected, or the one that is projected from."""
+    places = [(0, 0), (10, 10), (20, 5), (30, 40), (40, -20), (50, 11)]
+    program = (f"import sys\nprint('points', 6, flush=True)\nfor line in sys.stdin:\n  _, i, b = line.split()\n  b = int(b) + 1\n"
+               f"  x, y = {places}[int(i)]\n  x += 500 * (int(i) == int(sys.argv[1]) and b > 60)\n"
+               f"  print(i, *(f'{{(c << b) + k}}*2^{{-b}}' for c, k in ((x, -1), (x, 0), (y, -1), (y, 1))), flush=True)\n")
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'places.py')
+        with open(path, 'w', encoding='ascii') as f:
+            f.write(program)
+        for command in ('delaunay', 'converge'):
+            for bad in range(len(places)):
+                result = run(command, '--sphere', '--start-bits', '100', '--oracle', f'exec python3 {path} {bad}')
+                expect(result, 1, r'\A\Z' if command == 'delaunay' else '', f'dyadel: point {bad}: the oracle program was asked "refine {bad} ')
+
+
 def test_refusals():
     expect(run('delaunay', '--sphere', '-', stdin='0 0\n47 91\n'), 1, r'\A\Z', r'2:4: .*latitude is beyond 90 degrees')
     expect(run('delaunay', '--sphere', '-', stdin='0 0\n47 50+sqrt(2000)\n'), 1, r'\A\Z', r'point 1: .*latitude is beyond 90 degrees')
