@@ -10,12 +10,13 @@ import os
 import random
 import re
 import tempfile
+from decimal import Decimal
 from fractions import Fraction
 from itertools import combinations
 
 from mpmath import mp, mpf
 
-from harness import main, run
+from harness import expect, main, run
 
 BITS = 1200
 SEED = int(os.environ.get('DYADEL_TEST_SEED', '1'))
@@ -148,6 +149,15 @@ def test_sides_that_rounding_makes_unequal():
                 discs_of([point, ('1', '1'), ('0', 'e')], bits, *radius)
     refused = run('delaunay', '-', '--discs', stdin='3 sqrt(7)+-0.1\n1 1\n')
     assert refused.code == 1 and 'one radius' in refused.err, refused
+
+
+def test_discs_of_decimals_are_not_rounded():
+    """Far from the origin, where 2^-50 of the coordinates is a quarter of a radius, decimals have the discs they state."""
+    rows = (('0.0036', '-0.003', '0.000375'), ('0.005', '0.0016', '0.0000375'), ('0.0032', '-0.0014', '0.0005'))
+    for x, y in ((0, 0), (-10**9, 10**11), (10**11, -10**9), (3 * 10**11, 0)):
+        text = 'x,y,r\n' + ''.join(f'{Decimal(a) + x},{Decimal(b) + y},{r}\n' for a, b, r in rows)
+        expect(run('delaunay', '--discs', '--columns', 'x,y', '--radius-column', 'r', '-', stdin=text), 0,
+               r'(?s)0,1,legal\n0,2,legal\n1,2,legal\n')
 
 
 def test_discs_are_refined_as_far_as_they_are_told():
