@@ -544,7 +544,7 @@ dyd_status dyd_sites_add_rect(dyd_sites *s, const dyd_rect *r) {
 
 /* A rectangle that was given is narrowed. */
 static void kind_narrow(dyd_sites *s, size_t i) {
-  if (dyd_sites_kind(s, i) == DYD_SITE_GIVEN) s->kind[i] = DYD_SITE_ANY;
+  if (i < s->kind_count && s->kind[i] == DYD_SITE_GIVEN) s->kind[i] = DYD_SITE_ANY;
 }
 
 dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r) {

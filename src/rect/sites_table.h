@@ -72,13 +72,10 @@ dyd_status dyd_sites_narrow_d(dyd_sites *s, size_t i, const double box[4]);
 /* Site i becomes r, even where that is wider: for tables whose owner knows what depends on them. */
 dyd_status dyd_sites_replace(dyd_sites *s, size_t i, const dyd_rect *r);
 
-/* Facts about a site besides its rectangle. GIVEN: it was added as an exact one, and not narrowed since, so that only
- * its maker rounded its ends. Of sites that can be narrowed, BARE: it encloses one place, with no radius about it;
- * ROUND: all within one radius of a place, as [DISC-4] has it. */
+/* Facts about a site besides its rectangle. GIVEN: it was added as an exact one, or in words, and not narrowed since,
+ * so that only its maker rounded its ends. Of sites that can be narrowed, BARE: it encloses one place, with no radius
+ * about it; ROUND: all within one radius of a place, as [DISC-4] has it. */
 typedef enum dyd_site_kind { DYD_SITE_ANY, DYD_SITE_GIVEN, DYD_SITE_BARE, DYD_SITE_ROUND } dyd_site_kind;
-static inline dyd_site_kind dyd_sites_kind(const dyd_sites *s, size_t i) {
-  return i < s->kind_count ? (dyd_site_kind)s->kind[i] : DYD_SITE_ANY;
-}
 /* Sets the kind of n existing sites from i on. DYD_E_NOMEM. */
 dyd_status dyd_sites_set_kind(dyd_sites *s, size_t i, size_t n, dyd_site_kind kind);
 /* Appends n sites of this kind that hold the whole plane; none on failure. */
@@ -113,6 +110,10 @@ static inline bool dyd_sites_are_double_points(const dyd_sites *s) {
 /* Returns true if the ends of site i are in single words. */
 static inline bool dyd_sites_in_words(const dyd_sites *s, size_t i) {
   return s->word && s->word[i];
+}
+static inline dyd_site_kind dyd_sites_kind(const dyd_sites *s, size_t i) {
+  const dyd_site_kind kind = i < s->kind_count ? (dyd_site_kind)s->kind[i] : DYD_SITE_ANY;
+  return kind == DYD_SITE_ANY && dyd_sites_in_words(s, i) ? DYD_SITE_GIVEN : kind;
 }
 /* Returns true if the doubles hold the rectangle of site i exactly. */
 static inline bool dyd_sites_in_doubles(const dyd_sites *s, size_t i) {

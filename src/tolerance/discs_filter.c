@@ -80,9 +80,7 @@ static bool disc_of_square(dyd_disc *d, const dyd_rect *r, dyd_site_kind kind) {
 dyd_status dyd_disc_of_site(dyd_disc *d, const dyd_sites *s, size_t i) {
   DYD_LOCAL(dyd_rect, r);
   dyd_status st = dyd_sites_get(&r, s, i);
-  dyd_site_kind kind = dyd_sites_kind(s, i);
-  if (kind == DYD_SITE_ANY && dyd_sites_in_words(s, i)) kind = DYD_SITE_GIVEN; /* words hold decimals as they are */
-  if (st == DYD_OK && !disc_of_square(d, &r, kind)) st = DYD_E_ARG;
+  if (st == DYD_OK && !disc_of_square(d, &r, dyd_sites_kind(s, i))) st = DYD_E_ARG;
   return st;
 }
 
