@@ -78,29 +78,29 @@ static room_guess guess_room(const ball_guess *g, size_t n, const ball_guess *fr
   return r;
 }
 
-/* Scores of exact places are above EXACT, of others below. */
-#define EXACT 1e100
-
-/* Better ones are greater; 0 where it is not apart from all, or touches one, by doubles. */
+/* Better ones are greater, of exact places and of others; 0 where it is not apart from all, or touches one, by doubles.
+ */
 static double guess_score(const ball_guess *g, size_t n, const ball_guess *from) {
   const room_guess r = guess_room(g, n, from, 0);
   if (r.left <= EVEN * r.distance) return 0;
-  return from->eye == 0 ? 1e20 * EXACT * r.distance : fmin(r.distance / from->eye, EXACT);
+  return from->eye == 0 ? r.distance : r.distance / from->eye;
 }
 
 /* Tries the narrowest places, spread among all exact ones; more only while none is apart. */
 static double guess_best(uint32_t *out, const ball_guess *g, size_t n) {
   size_t exact = 0, tried = 0, most = 1 + WORK / (n + 1), all = 64 * most;
   double best = 0;
+  bool exactly = false; /* the best one is exact */
   while (exact < n && g[exact].reach == 0) exact++;
   if (most > CANDIDATES) most = CANDIDATES;
   size_t step = exact > most ? exact / most : 1;
   for (size_t k = 0; k < n && tried < all && (tried < most || best <= 0); k += k < exact ? step : 1, tried++) {
-    if (best > EXACT && g[k].reach > 0) break;
+    if (best > 0 && exactly && k >= exact) break;
     double score = guess_score(g, n, &g[k]);
     bool same = fabs(score - best) <= EVEN * best; /* two places may be nearest to each other */
     if (tried && (same ? g[k].place > *out : score < best)) continue;
     best = score;
+    exactly = k < exact;
     *out = g[k].place;
   }
   return best;

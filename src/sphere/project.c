@@ -432,7 +432,6 @@ static dyd_status centre_narrow(dyd_sphere *s, const image_wish *w, dyd_error *e
   if (s->eye_bits >= w->bits) return DYD_OK;
   dyd_status st = place_narrow(s, s->centre, w, err);
   if (st == DYD_OK) st = dyd_sphere_spot(&s->eye.spot, s, s->centre, err);
-  s->centre_failed = dyd_failed(st);
   if (st != DYD_OK) return st;
   dyd_spot_box(&s->eye.spot);
   s->eye.prec = 0;
@@ -458,7 +457,9 @@ static slong image_width(const image *m) {
 static dyd_status image_try(bool *seen, image *m, const image_wish *w, dyd_error *err) {
   dyd_sphere *s = m->s;
   dyd_status st = place_narrow(s, m->i, w, err);
-  if (st == DYD_OK) st = centre_narrow(s, w, err);
+  const bool placed = st == DYD_OK;
+  if (placed) st = centre_narrow(s, w, err);
+  s->centre_failed = placed && dyd_failed(st);
   if (st == DYD_OK) st = dyd_sphere_spot(&m->spot, s, m->i, err);
   if (st != DYD_OK) return st;
   m->wide = m->spot.stays || s->eye.spot.stays;

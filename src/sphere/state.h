@@ -107,11 +107,11 @@ struct dyd_sphere {
   mpq_t metre;          /* radians to a metre */
   mpq_t angle, degrees; /* the radius in the options: radians, or degrees of longitude and latitude */
   dyd_eye eye;          /* the centre, as it was asked last */
-  bool centre_failed;   /* its stream, or its latitude, so that no image is known */
+  bool centre_failed;   /* at the last try of an image: its stream, or its latitude */
   int64_t eye_bits;
   dyd_eye_d eye_d; /* the same in doubles, where first looks are in doubles */
-  /* The same places, projected from another gap; made where a wide centre, or a gap, leaves pairs indeterminate. NULL:
-   * none. */
+  /* The same places, projected from another gap; made where there are regions, or a gap, and pairs stay indeterminate.
+   * NULL: none. */
   dyd_sphere *second;
   bool gap_decided;     /* all pairs around a centre that is no place are known to be legal, or illegal */
   const double *within; /* of a plan: distances in metres of places from the middles of their regions; below 0: as they
